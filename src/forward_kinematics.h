@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "src/pose3.h"
+#include "src/skeleton.h"
+
+namespace poselift {
+
+// Rotation and position of every bone (see Bone for the equations).
+struct BoneFrames {
+  std::vector<Eigen::Matrix3d> world_from_bone;
+  Eigen::Matrix3Xd start_in_world_m;  // 3 x B
+  Eigen::Matrix3Xd tip_in_world_m;    // 3 x B
+};
+
+// Reuses the storage of *frames: no allocation after the first call.
+void ForwardKinematics(const Skeleton& skeleton, const SkeletonPose& pose, BoneFrames* frames);
+
+// f(q): the 23 joints, in world, metres; NaN where the skeleton lacks a joint.
+Pose3 JointPositions(const JointSites& sites, const BoneFrames& frames);
+Pose3 JointPositions(const Skeleton& skeleton, const SkeletonPose& pose);
+
+// J = df/dq, 3*23 x (6 + NumDofs): columns are the root's position (3), a
+// small rotation of the root in world, R = Exp(w) R0 (3), then the dofs.
+// Rows of absent joints are zero.
+void JointJacobian(const Skeleton& skeleton, const JointSites& sites, const SkeletonPose& pose,
+                   const BoneFrames& frames, Eigen::MatrixXd* jacobian);
+
+}  // namespace poselift
