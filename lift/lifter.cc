@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "lift/lifter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "lift/alternation.h"
+
+namespace poselift {
+namespace {
+
+void SortByObjective(std::vector<LiftSolution>* solutions) {
+  std::stable_sort(
+      solutions->begin(), solutions->end(),
+      [](const LiftSolution& a, const LiftSolution& b) { return a.objective < b.objective; });
+}
+
+double RmsDistance_m(const LiftSolution& a, const LiftSolution& b) {
+  const Pose3 a_in_cam = CamFromBody(a.tau_rad) * Unstacked(a.pose_in_body_m);
+  const Pose3 b_in_cam = CamFromBody(b.tau_rad) * Unstacked(b.pose_in_body_m);
+  return std::sqrt((a_in_cam - b_in_cam).squaredNorm() / kNumJoints);
+}
+
+// Keeps the better of any two that are the same pose.
+std::vector<LiftSolution> Distinct(std::vector<LiftSolution> sorted, double distinct_m) {
+  std::vector<LiftSolution> distinct;
+  for (LiftSolution& solution : sorted) {
+    const bool is_new = std::all_of(distinct.begin(), distinct.end(), [&](const LiftSolution& d) {
+      return RmsDistance_m(d, solution) >= distinct_m;
+    });
+    if (is_new) distinct.push_back(std::move(solution));
+  }
+  return distinct;
+}
+
+std::vector<LiftSolution> AtStarts(const std::vector<ViewStart>& starts,
+                                   const Dictionary& dictionary, bool has_2d) {
+  std::vector<LiftSolution> solutions;
+  for (const ViewStart& start : starts) {
+    LiftSolution solution;
+    solution.tau_rad = start.tau_rad;
+    if (has_2d) solution.scale_px_per_m = start.scale_px_per_unit / dictionary.typical_norm_m;
+    solutions.push_back(std::move(solution));
+  }
+  return solutions;
+}
+
+}  // namespace
+
+std::string LifterOptions::Validate() const {
+  for (const std::string& error : {omp.Validate(), rotation.Validate(), views.Validate()})
+    if (!error.empty()) return error;
+  if (!(prior_weight >= 0.0))
+    return fmt::format("LifterOptions::prior_weight = {}, wanted at least 0", prior_weight);
+  if (max_alternations < 1)
+    return fmt::format("LifterOptions::max_alternations = {}, wanted at least 1", max_alternations);
+  if (!(min_improvement >= 0.0))
+    return fmt::format("LifterOptions::min_improvement = {}, wanted at least 0", min_improvement);
+  if (trial_alternations < 1)
+    return fmt::format("LifterOptions::trial_alternations = {}, wanted at least 1",
+                       trial_alternations);
+  if (num_finishing < 1)
+    return fmt::format("LifterOptions::num_finishing = {}, wanted at least 1", num_finishing);
+  if (!(distinct_m >= 0.0))
+    return fmt::format("LifterOptions::distinct_m = {}, wanted at least 0", distinct_m);
+  return "";
+}
+
+std::string CanLift(const Observation& observation) {
+  constexpr int kLeastPoints = 4;
+  const auto count = static_cast<int>(observation.points.size());
+  if (count < kLeastPoints)
+    return fmt::format("{} usable points, wanted at least {} well spread ones", count,
+                       kLeastPoints);
+  const ProjectionOperator op(observation);
+  if (!op.target().allFinite()) return "a point is not finite";
+  // The target is in units of sigma.
+  if (op.target().squaredNorm() < static_cast<double>(op.NumRows()))
+    return "all points lie in one place, wanted points spread over the body";
+  return "";
+}
+
+Lifter::Lifter(const Dictionary& dictionary, LifterOptions options)
+    : dictionary_(dictionary), options_(std::move(options)) {
+  if (const std::string error = options_.Validate(); !error.empty())
+    throw std::invalid_argument(error);
+  prior_rows_.resize(0, dictionary.NumAtoms());
+  if (dictionary.prior.Empty() || options_.prior_weight == 0.0) return;
+  const Eigen::MatrixXd whitening = options_.prior_weight * dictionary.prior.whitening;
+  prior_rows_ = whitening * dictionary.atoms;
+  prior_target_ = whitening * dictionary.prior.mean_m;
+}
+
+std::vector<LiftSolution> Lifter::Solve(const Observation& observation) const {
+  if (!CanLift(observation).empty()) return {};
+  Alternation alternation(dictionary_, options_, observation, prior_rows_, prior_target_);
+  const auto starts =
+      SearchViews(alternation.op(), alternation.centred_atoms(), options_.rotation, options_.views);
+  auto solutions = AtStarts(starts, dictionary_, alternation.op().Has2D());
+  for (LiftSolution& solution : solutions) alternation.Run(options_.trial_alternations, &solution);
+  SortByObjective(&solutions);
+  for (int i = 0; i < options_.num_finishing && i < static_cast<int>(solutions.size()); ++i)
+    alternation.Run(options_.max_alternations - options_.trial_alternations, &solutions[i]);
+  SortByObjective(&solutions);
+  return Distinct(std::move(solutions), options_.distinct_m);
+}
+
+std::vector<LiftSolution> Lifter::SolveFrom(const Observation& observation,
+                                            const std::vector<ViewStart>& starts) const {
+  if (!CanLift(observation).empty()) return {};
+  Alternation alternation(dictionary_, options_, observation, prior_rows_, prior_target_);
+  auto solutions = AtStarts(starts, dictionary_, alternation.op().Has2D());
+  for (LiftSolution& solution : solutions) alternation.Run(options_.max_alternations, &solution);
+  SortByObjective(&solutions);
+  return solutions;
+}
+
+}  // namespace poselift

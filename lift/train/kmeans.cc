@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "lift/train/kmeans.h"
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+namespace poselift {
+namespace {
+
+// k-means++: each next centre is a point drawn with the square of its distance
+// to the centres so far as weight.
+Eigen::MatrixXd SeedCentres(const Eigen::MatrixXd& points, int num_clusters, std::uint64_t seed) {
+  std::mt19937_64 rng(seed);
+  Eigen::MatrixXd centres(points.rows(), num_clusters);
+  const Eigen::Index m = points.cols();
+  Eigen::Index chosen = std::uniform_int_distribution<Eigen::Index>(0, m - 1)(rng);
+  Eigen::VectorXd distance = Eigen::VectorXd::Constant(m, std::numeric_limits<double>::max());
+  for (int c = 0; c < num_clusters; ++c) {
+    centres.col(c) = points.col(chosen);
+    distance =
+        distance.cwiseMin((points.colwise() - centres.col(c)).colwise().squaredNorm().transpose());
+    double left = std::uniform_real_distribution<double>(0.0, distance.sum())(rng);
+    for (chosen = 0; chosen + 1 < m && (left -= distance[chosen]) > 0.0; ++chosen) {
+    }
+  }
+  return centres;
+}
+
+bool Assign(const Eigen::MatrixXd& points, const Eigen::MatrixXd& centres,
+            Eigen::VectorXi* clusters, Eigen::VectorXd* distances) {
+  const Eigen::VectorXd half_norms = 0.5 * centres.colwise().squaredNorm().transpose();
+  bool changed = false;
+#pragma omp parallel for reduction(|| : changed) schedule(static)
+  for (Eigen::Index j = 0; j < points.cols(); ++j) {
+    Eigen::Index best = 0;
+    const double score = (centres.transpose() * points.col(j) - half_norms).maxCoeff(&best);
+    (*distances)[j] = points.col(j).squaredNorm() - 2.0 * score;
+    changed = changed || (*clusters)[j] != best;
+    (*clusters)[j] = static_cast<int>(best);
+  }
+  return changed;
+}
+
+// Means of the clusters; an empty one takes the point farthest from its centre.
+void MoveCentres(const Eigen::MatrixXd& points, Eigen::VectorXi* clusters,
+                 Eigen::VectorXd* distances, Eigen::MatrixXd* centres) {
+  Eigen::VectorXi counts = Eigen::VectorXi::Zero(centres->cols());
+  for (const int c : *clusters) ++counts[c];
+  for (int c = 0; c < counts.size(); ++c) {
+    if (counts[c] > 0) continue;
+    Eigen::Index farthest = 0;
+    distances->maxCoeff(&farthest);
+    --counts[(*clusters)[farthest]];
+    (*clusters)[farthest] = c;
+    (*distances)[farthest] = 0.0;
+    counts[c] = 1;
+  }
+  centres->setZero();
+  for (Eigen::Index j = 0; j < points.cols(); ++j) centres->col((*clusters)[j]) += points.col(j);
+  for (int c = 0; c < counts.size(); ++c) centres->col(c) /= counts[c];
+}
+
+}  // namespace
+
+Eigen::VectorXi KMeans(const Eigen::MatrixXd& points, int num_clusters, int max_iterations,
+                       std::uint64_t seed) {
+  num_clusters = static_cast<int>(std::min<Eigen::Index>(num_clusters, points.cols()));
+  Eigen::VectorXi clusters = Eigen::VectorXi::Constant(points.cols(), -1);
+  Eigen::VectorXd distances(points.cols());
+  Eigen::MatrixXd centres = SeedCentres(points, num_clusters, seed);
+  for (int i = 0; i < max_iterations && Assign(points, centres, &clusters, &distances); ++i)
+    MoveCentres(points, &clusters, &distances, &centres);
+  return clusters;
+}
+
+}  // namespace poselift

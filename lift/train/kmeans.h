@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace poselift {
+
+// k-means (Lloyd, seeded by k-means++) on the columns of points (D x m).
+// Returns the cluster of each column; no cluster is empty. Deterministic by
+// seed whatever the number of threads.
+Eigen::VectorXi KMeans(const Eigen::MatrixXd& points, int num_clusters, int max_iterations,
+                       std::uint64_t seed);
+
+}  // namespace poselift
