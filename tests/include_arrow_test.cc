@@ -51,8 +51,8 @@ bool StartsWithAny(std::string_view text, const std::vector<std::string_view>& p
 
 // Why the file may not include this, or "".
 std::string Complaint(const std::string& file, const std::string& included, bool quoted) {
-  static const std::vector<std::string_view> kOwn = {"src/", "calib/",   "lift/",
-                                                     "ui/",  "samples/", "tests/"};
+  static const std::vector<std::string_view> kProject = {"src/", "calib/",   "lift/",
+                                                         "ui/",  "samples/", "tests/"};
   static const std::regex kQt("^(Q[A-Z]|Qt).*");
   static const std::vector<std::string_view> kNowhere = {"opencv2/opencv.hpp", "opencv2/highgui",
                                                          "opencv2/viz"};
@@ -62,7 +62,8 @@ std::string Complaint(const std::string& file, const std::string& included, bool
   if (is_header && StartsWithAny(included, kNotInHeaders)) return "stays out of headers";
   if (!file.starts_with("ui/window/") && std::regex_match(included, kQt))
     return "is for ui/window alone";
-  if (!StartsWithAny(included, kOwn)) return quoted ? "is not named from the project's root" : "";
+  if (!StartsWithAny(included, kProject))
+    return quoted ? "is not named from the project's root" : "";
   if (included.starts_with("lift/eval/") && !file.starts_with("lift/eval/") &&
       !file.starts_with("ui/"))
     return "knows the truth";
