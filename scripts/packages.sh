@@ -43,7 +43,7 @@ TEXT
   local missing
   mapfile -t missing < <(missing_packages "$@")
   ((${#missing[@]})) || return 0
-  say "installing ${missing[*]}"
+  say "installing ${missing[*]} (minutes, on a fresh machine)"
   local as_root=(env DEBIAN_FRONTEND=noninteractive)
   if ((EUID != 0)); then
     if ! command -v sudo >/dev/null; then
@@ -53,10 +53,17 @@ TEXT
     as_root=(sudo env DEBIAN_FRONTEND=noninteractive)
     [[ -t 0 ]] || as_root=(sudo -n env DEBIAN_FRONTEND=noninteractive)
   fi
-  local apt=("${as_root[@]}" apt-get -q -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3)
+  local apt=("${as_root[@]}" apt-get -qq -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3)
+  local log
+  log=$(mktemp)
   # A foreign source that fails to update must not stop the installation.
-  "${apt[@]}" update </dev/null || echo "apt-get update failed; trying with the lists at hand" >&2
-  "${apt[@]}" install -y --no-install-recommends "${missing[@]}" </dev/null
+  "${apt[@]}" update </dev/null >"$log" 2>&1 || cat "$log" >&2
+  if ! "${apt[@]}" install -y --no-install-recommends "${missing[@]}" </dev/null >"$log" 2>&1; then
+    cat "$log" >&2
+    rm -f "$log"
+    return 1
+  fi
+  rm -f "$log"
 }
 
 # build_release TARGET...: configures and builds into build/.
