@@ -25,7 +25,7 @@ std::mt19937_64 TestRng() {
 }
 
 std::filesystem::path ScratchDir() {
-  const auto dir = std::filesystem::temp_directory_path() / "poselift_tests" / TestName();
+  auto dir = std::filesystem::path(POSELIFT_SCRATCH_DIR) / TestName();
   static std::string cleared;
   if (cleared != dir) {
     std::filesystem::remove_all(dir);
