@@ -68,7 +68,7 @@ Angles FitThree(const Eigen::Matrix3d& R, const RotationDofs& dofs, const Angles
                            NearestTurn(BestAngle(rest, k), previous[2])};
     double distance = 0.0;
     for (int n = 0; n < 3; ++n) distance += std::pow(angles[n] - previous[n], 2);
-    if (distance < best_distance) {
+    if (!(distance >= best_distance)) {  // a NaN stays one
       best_distance = distance;
       best = angles;
     }

@@ -153,7 +153,10 @@ class AmcWriter {
   }
 
   void Append(const SkeletonPose& pose) {
-    text_ += std::to_string(++number_) + "\n";
+    ++number_;
+    if (!pose.world_from_root.coeffs().allFinite())
+      throw InputError("found a NaN in frame " + std::to_string(number_) + ", wrote no AMC");
+    text_ += std::to_string(number_) + "\n";
     AppendRoot(pose);
     Eigen::Index d = 0;
     for (size_t b = 1; b < asf_.skeleton.bones.size(); ++b) {
