@@ -21,7 +21,7 @@ std::string Lower(std::string_view text) {
 // part behind a prefix such as "mixamorig:").
 struct BvhAlias {
   int joint;
-  std::initializer_list<std::string_view> names;
+  std::vector<std::string_view> names;
 };
 
 const std::vector<BvhAlias>& BvhAliases() {
@@ -103,7 +103,12 @@ JointSites FindJointSites(const Skeleton& skeleton) {
       sites[j] = {FindAliased(skeleton, BvhAliases()[j]), false};
     }
   }
-  if (is_cmu) sites[joint::kPelvis] = {0, false};
+  if (is_cmu) {
+    sites[joint::kPelvis] = {0, false};
+    // A BVH has no hip bones of CMU: the thigh begins where they end.
+    for (const int hip : {joint::kLeftHip, joint::kRightHip})
+      if (sites[hip].bone < 0) sites[hip] = {sites[hip + 1].bone, false};
+  }
   return sites;
 }
 

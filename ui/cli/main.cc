@@ -15,7 +15,10 @@ namespace {
 using poselift::cli::Run;
 using AddCommand = CLI::App* (*)(CLI::App*, Run*);
 
-constexpr std::array<AddCommand, 0> kCommands = {};
+constexpr std::array kCommands = {
+    AddCommand{poselift::cli::AddConvert},
+    AddCommand{poselift::cli::AddInfo},
+};
 
 int RunGuarded(const Run& run) {
   try {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string_view>
+
+namespace poselift::cli {
+
+// A kind of file that `info` can tell and describe. To add one: a row in the
+// table of recognisers.cc.
+struct Recogniser {
+  std::string_view kind;  // "BVH motion"
+  // By the ending of the name and the first bytes (up to 4 KiB) of the file.
+  bool (*is_it)(const std::filesystem::path& path, std::string_view head);
+  // What is in it, in the order to print; names carry the unit (duration_s).
+  // Reads the whole file; throws InputError when it is malformed.
+  nlohmann::ordered_json (*describe)(const std::filesystem::path& path);
+};
+
+// The first that says yes describes the file.
+std::span<const Recogniser> Recognisers();
+
+// Motion files: recognise_motion.cc.
+bool IsBvh(const std::filesystem::path& path, std::string_view head);
+bool IsAmc(const std::filesystem::path& path, std::string_view head);
+bool IsAsf(const std::filesystem::path& path, std::string_view head);
+nlohmann::ordered_json DescribeBvh(const std::filesystem::path& path);
+nlohmann::ordered_json DescribeAmc(const std::filesystem::path& path);
+nlohmann::ordered_json DescribeAsf(const std::filesystem::path& path);
+
+}  // namespace poselift::cli
