@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "src/io/labels.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "src/io/json_value.h"
+#include "src/io/labels_formats.h"
+#include "src/io/text_scanner.h"
+
+namespace poselift {
+namespace {
+
+constexpr std::string_view kOpenPoseEnding = "_keypoints.json";
+
+const Layout* LayoutOrAuto(std::string_view name) {
+  if (name == "auto") return nullptr;
+  if (const Layout* layout = FindLayout(name)) return layout;
+  std::string known;
+  for (const Layout& layout : AllLayouts()) known += fmt::format(", {}", layout.name);
+  throw InputError(fmt::format("found the layout {}, wanted auto{}", Quoted(name), known));
+}
+
+std::vector<std::filesystem::path> OpenPoseFiles(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->path().filename().string().ends_with(kOpenPoseEnding))
+      files.push_back(entry->path());
+  if (error) throw InputError(folder.string(), "cannot list it: " + error.message());
+  if (files.empty())
+    throw InputError(folder.string(),
+                     "found no file *_keypoints.json, wanted a labels file or a folder of "
+                     "OpenPose's files");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// layout: what the frames were found to have; null when nobody is in any.
+Labels OpenPoseLabels(std::vector<FrameLabels> frames, const Layout* layout,
+                      const std::string& file) {
+  Labels labels{layout ? std::string(layout->name) : "openpose25", std::move(frames)};
+  RefuseRelativeScale(labels, file);
+  return labels;
+}
+
+Labels ReadOpenPoseFolder(const std::filesystem::path& folder, const Layout* layout) {
+  std::vector<FrameLabels> frames;
+  for (const std::filesystem::path& file : OpenPoseFiles(folder)) {
+    const JsonDocument document(file);
+    if (!IsOpenPose(document.root()))
+      throw document.root().Error("found no \"people\", wanted a file that OpenPose wrote");
+    frames.push_back(ReadOpenPoseFrame(document.root(), &layout));
+  }
+  return OpenPoseLabels(std::move(frames), layout, folder.string());
+}
+
+size_t EditDistance(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 0; i < a.size(); ++i) {
+    size_t diagonal = row[0]++;
+    for (size_t j = 0; j < b.size(); ++j) {
+      const size_t replaced = diagonal + (a[i] != b[j]);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+Labels ReadLabels(const std::filesystem::path& path, std::string_view layout_name) {
+  const Layout* layout = LayoutOrAuto(layout_name);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return ReadOpenPoseFolder(path, layout);
+  const JsonDocument document(path);
+  const JsonValue& root = document.root();
+  if (IsNativeLabels(root)) return ReadNativeLabels(root, layout);
+  if (IsCocoLabels(root)) return ReadCocoLabels(root, layout);
+  if (IsOpenPose(root)) {
+    FrameLabels frame = ReadOpenPoseFrame(root, &layout);
+    return OpenPoseLabels({std::move(frame)}, layout, path.string());
+  }
+  throw root.Error(
+      "found JSON without labels, wanted poselift-labels (\"format\"), COCO keypoints "
+      "(\"annotations\", or a list of results) or OpenPose (\"people\")");
+}
+
+LandmarkLabel LandmarkFromScore(std::string_view name, const Eigen::Vector2d& x_px, double score) {
+  LandmarkLabel landmark{std::string(name), x_px, LabelState::kVisible, std::nullopt};
+  if (score <= 0.0)
+    landmark.state = LabelState::kAbsent;
+  else if (score < kGuessedBelowScore)
+    landmark.state = LabelState::kOccluded;
+  return landmark;
+}
+
+const Layout* FindLayoutBySize(size_t num_landmarks) {
+  for (const Layout& layout : AllLayouts())
+    if (layout.landmarks.size() == num_landmarks) return &layout;
+  return nullptr;
+}
+
+std::string LayoutSizes() {
+  std::string sizes;
+  for (const Layout& layout : AllLayouts())
+    sizes +=
+        fmt::format("{}{} ({})", sizes.empty() ? "" : ", ", layout.name, layout.landmarks.size());
+  return sizes;
+}
+
+std::string NearestName(std::string_view name, const std::vector<std::string>& names) {
+  constexpr size_t kLongestName = 64;  // a longer one resembles nothing
+  const auto distance = [&](const std::string& other) {
+    return EditDistance(name.substr(0, kLongestName), other);
+  };
+  return *std::min_element(names.begin(), names.end(),
+                           [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+}
+
+}  // namespace poselift

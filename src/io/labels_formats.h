@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "src/io/json_value.h"
+#include "src/labels.h"
+#include "src/layout.h"
+
+namespace poselift {
+
+// The formats behind ReadLabels, one file each. layout: null for auto.
+
+bool IsNativeLabels(const JsonValue& root);
+Labels ReadNativeLabels(const JsonValue& root, const Layout* layout);
+
+bool IsCocoLabels(const JsonValue& root);
+Labels ReadCocoLabels(const JsonValue& root, const Layout* layout);
+
+// frames: each file's outermost value, one a frame.
+bool IsOpenPose(const JsonValue& root);
+FrameLabels ReadOpenPoseFrame(const JsonValue& root, const Layout** layout);
+// Refuses coordinates that --keypoint_scale 3 or 4 made relative to the picture.
+void RefuseRelativeScale(const Labels& labels, const std::string& file);
+
+// Bounds of what a picture can hold: beyond them a file is broken.
+inline constexpr double kLargestCoordinate_px = 1e6;
+inline constexpr int kLargestPicture_px = 1000000;
+
+// Below this score of a detector a point counts as guessed: LabelState::kOccluded.
+inline constexpr double kGuessedBelowScore = 0.3;
+
+// x, y and a detector's score: 0 for a point it has not found.
+LandmarkLabel LandmarkFromScore(std::string_view name, const Eigen::Vector2d& x_px, double score);
+
+// Of the layouts with that many landmarks the first; null when there is none.
+const Layout* FindLayoutBySize(size_t num_landmarks);
+
+// "body15 (15), coco17 (17), ..."
+std::string LayoutSizes();
+
+// The name of the list that is the fewest letters away.
+std::string NearestName(std::string_view name, const std::vector<std::string>& names);
+
+}  // namespace poselift

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+//
+// poselift-labels, version 1: docs/FORMATS.md.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "src/io/atomic_file.h"
+#include "src/io/json_text.h"
+#include "src/io/labels.h"
+#include "src/io/labels_formats.h"
+#include "src/io/text_scanner.h"
+
+namespace poselift {
+namespace {
+
+constexpr std::string_view kFormat = "poselift-labels";
+constexpr double kLargestTime_s = 1e9;
+constexpr std::string_view kStateNames[] = {"visible", "occluded", "absent"};
+
+const JsonValue& Joints(const JsonValue& person) { return person.At("joints"); }
+
+// The layout's own name of a landmark: "head" is head_top, and "neck" thorax
+// where the layout has them. Empty when the layout has no such landmark.
+std::string_view NameInLayout(const Layout& layout, std::string_view name) {
+  if (const auto found = layout.Find(name)) return layout.landmarks[*found].name;
+  const auto joint = FindJoint(name);
+  if (!joint) return {};
+  for (const Landmark& landmark : layout.landmarks)
+    if (landmark.parts.size() == 1 && landmark.parts[0].joint == *joint &&
+        landmark.offset_sigma_m == 0.0)
+      return landmark.name;
+  return {};
+}
+
+bool HasAllJoints(const Layout& layout, const JsonValue& root) {
+  for (const JsonValue& frame : root.At("frames").Items())
+    for (const JsonValue& person : frame.At("people").Items())
+      for (const std::string& name : Joints(person).Keys())
+        if (NameInLayout(layout, name).empty()) return false;
+  return true;
+}
+
+const Layout& LayoutOfFile(const JsonValue& root) {
+  const JsonValue* name = root.Find("layout");
+  if (!name) return *FindLayout("body15");
+  if (const Layout* layout = FindLayout(name->String())) return *layout;
+  throw name->Unwanted("one of " + LayoutSizes());
+}
+
+// The file's layout, or joints23 when the file names joints beyond it: more
+// joints than the layout promised do no harm.
+const Layout& LayoutThatFits(const JsonValue& root) {
+  const Layout& layout = LayoutOfFile(root);
+  const Layout& joints23 = *FindLayout("joints23");
+  return !HasAllJoints(layout, root) && HasAllJoints(joints23, root) ? joints23 : layout;
+}
+
+InputError UnknownJoint(const JsonValue& landmark, std::string_view name, const Layout& layout) {
+  std::vector<std::string> known = {"neck", "head"};
+  for (const Landmark& other : layout.landmarks) known.emplace_back(other.name);
+  for (const JointInfo& joint : poselift::Joints()) known.emplace_back(joint.name);
+  return landmark.Error(fmt::format("found the unknown joint {} (layout {}), wanted perhaps \"{}\"",
+                                    Quoted(name), layout.name, NearestName(name, known)));
+}
+
+LabelState ReadState(const JsonValue& state) {
+  const auto* found = std::find(std::begin(kStateNames), std::end(kStateNames), state.String());
+  if (found == std::end(kStateNames)) throw state.Unwanted("visible, occluded or absent");
+  return static_cast<LabelState>(found - std::begin(kStateNames));
+}
+
+LandmarkLabel ReadLandmark(const JsonValue& json, std::string_view name) {
+  LandmarkLabel landmark;
+  landmark.name = name;
+  if (const JsonValue* state = json.Find("state")) landmark.state = ReadState(*state);
+  const bool needs_position = landmark.state != LabelState::kAbsent;
+  for (int i = 0; i < 2; ++i) {
+    const char* key = i == 0 ? "x" : "y";
+    if (needs_position || json.Find(key))
+      landmark.x_px[i] = json.At(key).Number(-kLargestCoordinate_px, kLargestCoordinate_px);
+  }
+  if (const JsonValue* radius = json.Find("radius_px")) {
+    landmark.radius_px = radius->Number(0.0, kLargestCoordinate_px);
+    if (*landmark.radius_px == 0.0)
+      throw radius->Unwanted("a standard deviation above 0 (leave it out when not known)");
+  }
+  return landmark;
+}
+
+PersonLabels ReadPerson(const JsonValue& json, const Layout& layout, int index) {
+  PersonLabels person;
+  person.id = index;
+  if (const JsonValue* id = json.Find("id"))
+    person.id = id->Integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
+  const JsonValue& joints = Joints(json);
+  std::set<std::string_view> seen;
+  for (size_t i = 0; i < joints.Members().size(); ++i) {
+    const JsonValue& landmark = joints.Members()[i];
+    const std::string_view name = NameInLayout(layout, joints.Keys()[i]);
+    if (name.empty()) throw UnknownJoint(landmark, joints.Keys()[i], layout);
+    if (!seen.insert(name).second)
+      throw landmark.Error(fmt::format("found the joint {} under two names, wanted one", name));
+    person.landmarks.push_back(ReadLandmark(landmark, name));
+  }
+  return person;
+}
+
+FrameLabels ReadFrame(const JsonValue& json, const Layout& layout) {
+  FrameLabels frame;
+  if (const JsonValue* image = json.Find("image")) frame.image = image->String();
+  if (const JsonValue* width = json.Find("width"))
+    frame.width_px = width->Integer(0, kLargestPicture_px);
+  if (const JsonValue* height = json.Find("height"))
+    frame.height_px = height->Integer(0, kLargestPicture_px);
+  if (const JsonValue* time = json.Find("time_s"))
+    frame.time_s = time->Number(-kLargestTime_s, kLargestTime_s);
+  std::set<int> ids;
+  for (const JsonValue& person : json.At("people").Items()) {
+    frame.people.push_back(ReadPerson(person, layout, static_cast<int>(frame.people.size())));
+    const int id = frame.people.back().id;
+    if (!ids.insert(id).second)
+      throw person.Error(fmt::format("found a second person with the id {}, wanted one", id));
+  }
+  return frame;
+}
+
+void AppendNumber(double value, std::string* out) {
+  if (!std::isfinite(value)) throw std::invalid_argument("labels must be finite to be written");
+  fmt::format_to(std::back_inserter(*out), "{}", value);  // the shortest that reads back equal
+}
+
+void AppendLandmark(const LandmarkLabel& landmark, std::string* out) {
+  AppendJsonString(landmark.name, out);
+  *out += ": {";
+  if (landmark.state != LabelState::kAbsent) {
+    *out += "\"x\": ";
+    AppendNumber(landmark.x_px.x(), out);
+    *out += ", \"y\": ";
+    AppendNumber(landmark.x_px.y(), out);
+    *out += ", ";
+  }
+  *out += fmt::format("\"state\": \"{}\"", kStateNames[static_cast<int>(landmark.state)]);
+  if (landmark.radius_px) {
+    *out += ", \"radius_px\": ";
+    AppendNumber(*landmark.radius_px, out);
+  }
+  *out += "}";
+}
+
+void AppendPerson(const PersonLabels& person, std::string* out) {
+  *out += fmt::format("    {{\"id\": {}, \"joints\": {{", person.id);
+  for (size_t i = 0; i < person.landmarks.size(); ++i) {
+    if (i > 0) *out += ", ";
+    AppendLandmark(person.landmarks[i], out);
+  }
+  *out += "}}";
+}
+
+void AppendFrame(const FrameLabels& frame, std::string* out) {
+  *out += "  {";
+  if (!frame.image.empty()) {
+    *out += "\"image\": ";
+    AppendJsonString(frame.image, out);
+    *out += ", ";
+  }
+  if (frame.width_px > 0 && frame.height_px > 0)
+    *out += fmt::format("\"width\": {}, \"height\": {}, ", frame.width_px, frame.height_px);
+  if (frame.time_s) {
+    *out += "\"time_s\": ";
+    AppendNumber(*frame.time_s, out);
+    *out += ", ";
+  }
+  *out += "\"people\": [";
+  for (size_t i = 0; i < frame.people.size(); ++i) {
+    *out += i > 0 ? ",\n" : "\n";
+    AppendPerson(frame.people[i], out);
+  }
+  *out += "]}";
+}
+
+}  // namespace
+
+bool IsNativeLabels(const JsonValue& root) {
+  return root.Is(JsonValue::Kind::kObject) && root.Find("format");
+}
+
+Labels ReadNativeLabels(const JsonValue& root, const Layout* layout) {
+  if (const JsonValue& format = root.At("format"); format.String() != kFormat)
+    throw format.Unwanted(fmt::format("\"{}\"", kFormat));
+  if (const JsonValue& version = root.At("version"); version.Number() != 1.0)
+    throw version.Unwanted("1, the version that this poselift reads");
+  if (!layout) layout = &LayoutThatFits(root);
+  Labels labels;
+  labels.layout = layout->name;
+  for (const JsonValue& frame : root.At("frames").Items())
+    labels.frames.push_back(ReadFrame(frame, *layout));
+  return labels;
+}
+
+void WriteLabels(const Labels& labels, const std::filesystem::path& path) {
+  std::string text = fmt::format("{{\"format\": \"{}\", \"version\": 1, \"layout\": ", kFormat);
+  AppendJsonString(labels.layout, &text);
+  text += ",\n \"frames\": [";
+  for (size_t i = 0; i < labels.frames.size(); ++i) {
+    text += i > 0 ? ",\n" : "\n";
+    AppendFrame(labels.frames[i], &text);
+  }
+  text += "]}\n";
+  WriteFileAtomically(path, text);
+}
+
+}  // namespace poselift

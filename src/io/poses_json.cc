@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "src/io/poses_json.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "src/io/atomic_file.h"
+#include "src/io/json_text.h"
+#include "src/io/json_value.h"
+
+namespace poselift {
+namespace {
+
+constexpr std::string_view kFormat = "poselift-poses";
+constexpr std::string_view kAxes = "x right, y down, z forward";
+constexpr int kMetreDecimals = 6, kPixelDecimals = 3, kDegreeDecimals = 3, kTimeDecimals = 6,
+              kCoefficientDecimals = 6, kQuaternionDecimals = 9;
+constexpr double kLargestNumber = 1e12;
+
+using NamedValues = std::vector<std::pair<std::string, double>>;
+
+// Builds one object, with commas where they belong.
+class ObjectText {
+ public:
+  explicit ObjectText(std::string* out) : out_(out) { *out_ += '{'; }
+  void Close() { *out_ += '}'; }
+
+  void Key(std::string_view key) {
+    if (!first_) *out_ += ", ";
+    first_ = false;
+    AppendJsonString(key, out_);
+    *out_ += ": ";
+  }
+  void Text(std::string_view key, std::string_view text) {
+    Key(key);
+    AppendJsonString(text, out_);
+  }
+  void Number(std::string_view key, double value, int decimals) {
+    if (!std::isfinite(value)) return;
+    Key(key);
+    AppendJsonNumber(value, decimals, out_);
+  }
+  template <typename Vector>
+  void Numbers(std::string_view key, const Vector& values, int decimals) {
+    if (!values.allFinite()) return;
+    Key(key);
+    *out_ += '[';
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      if (i > 0) *out_ += ", ";
+      AppendJsonNumber(values[i], decimals, out_);
+    }
+    *out_ += ']';
+  }
+
+ private:
+  std::string* out_;
+  bool first_ = true;
+};
+
+void AppendJoints(const Pose3& joints_in_cam_m, std::string* out) {
+  ObjectText joints(out);
+  for (int j = 0; j < kNumJoints && j < joints_in_cam_m.cols(); ++j)
+    joints.Numbers(Joints()[j].name, joints_in_cam_m.col(j), kMetreDecimals);
+  joints.Close();
+}
+
+void AppendNamed(const NamedValues& values, int decimals, std::string* out) {
+  ObjectText object(out);
+  for (const auto& [name, value] : values) object.Number(name, value, decimals);
+  object.Close();
+}
+
+void AppendAtoms(const std::vector<std::pair<int, double>>& atoms, std::string* out) {
+  *out += '[';
+  bool first = true;
+  for (const auto& [index, coefficient] : atoms) {
+    if (!std::isfinite(coefficient)) continue;
+    *out += fmt::format("{}[{}, ", first ? "" : ", ", index);
+    first = false;
+    AppendJsonNumber(coefficient, kCoefficientDecimals, out);
+    *out += ']';
+  }
+  *out += ']';
+}
+
+void AppendAlternatives(const std::vector<PoseAlternative>& alternatives, std::string* out) {
+  *out += '[';
+  for (size_t i = 0; i < alternatives.size(); ++i) {
+    if (i > 0) *out += ", ";
+    ObjectText object(out);
+    object.Key("joints_in_cam");
+    AppendJoints(alternatives[i].joints_in_cam_m, out);
+    object.Number("cost", alternatives[i].cost, kCoefficientDecimals);
+    object.Number("reprojection_rms_px", alternatives[i].reprojection_rms_px, kPixelDecimals);
+    object.Close();
+  }
+  *out += ']';
+}
+
+void AppendPerson(const PersonPose& person, std::string* out) {
+  ObjectText object(out);
+  object.Number("id", person.id, 0);
+  object.Text("status", person.status);
+  if (!person.message.empty()) object.Text("message", person.message);
+  object.Key("joints_in_cam");
+  AppendJoints(person.joints_in_cam_m, out);
+  object.Number("scale_px_per_m", person.scale_px_per_m, kMetreDecimals);
+  object.Numbers("translation_px", person.translation_px, kPixelDecimals);
+  const Eigen::Quaterniond& q = person.rotation_cam_from_body;
+  object.Numbers("rotation_cam_from_body", Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()),
+                 kQuaternionDecimals);
+  object.Key("angles_deg");
+  AppendNamed(person.angles_deg, kDegreeDecimals, out);
+  object.Number("reprojection_rms_px", person.reprojection_rms_px, kPixelDecimals);
+  object.Key("per_joint_px");
+  AppendNamed(person.per_joint_px, kPixelDecimals, out);
+  object.Key("atoms");
+  AppendAtoms(person.atoms, out);
+  object.Key("alternatives");
+  AppendAlternatives(person.alternatives, out);
+  object.Close();
+}
+
+void AppendFrame(const FramePoses& frame, std::string* out) {
+  ObjectText object(out);
+  if (!frame.image.empty()) object.Text("image", frame.image);
+  if (frame.time_s) object.Number("time_s", *frame.time_s, kTimeDecimals);
+  object.Key("people");
+  *out += '[';
+  for (size_t i = 0; i < frame.people.size(); ++i) {
+    *out += i > 0 ? ",\n    " : "\n    ";
+    AppendPerson(frame.people[i], out);
+  }
+  *out += ']';
+  object.Close();
+}
+
+double ReadNumber(const JsonValue& value) { return value.Number(-kLargestNumber, kLargestNumber); }
+
+double ReadNumberOrUnknown(const JsonValue& object, std::string_view key) {
+  const JsonValue* value = object.Find(key);
+  return value ? ReadNumber(*value) : kUnknown;
+}
+
+template <int kSize>
+Eigen::Matrix<double, kSize, 1> ReadNumbers(const JsonValue& list) {
+  const std::vector<JsonValue>& items = list.Items();
+  if (items.size() != kSize) throw list.Unwanted(fmt::format("a list of {} numbers", kSize));
+  Eigen::Matrix<double, kSize, 1> numbers;
+  for (int i = 0; i < kSize; ++i) numbers[i] = ReadNumber(items[static_cast<size_t>(i)]);
+  return numbers;
+}
+
+Pose3 ReadJoints(const JsonValue& object) {
+  Pose3 joints_in_cam_m = Pose3::Constant(3, kNumJoints, kUnknown);
+  for (size_t i = 0; i < object.Members().size(); ++i) {
+    const JsonValue& position = object.Members()[i];
+    const auto joint = FindJoint(object.Keys()[i]);
+    if (!joint) throw position.Error("found an unknown joint, wanted one of the 23");
+    joints_in_cam_m.col(*joint) = ReadNumbers<3>(position);
+  }
+  return joints_in_cam_m;
+}
+
+NamedValues ReadNamed(const JsonValue& object) {
+  NamedValues values;
+  for (size_t i = 0; i < object.Members().size(); ++i)
+    values.emplace_back(object.Keys()[i], ReadNumber(object.Members()[i]));
+  return values;
+}
+
+Eigen::Quaterniond ReadRotation(const JsonValue& list) {
+  const Eigen::Vector4d wxyz = ReadNumbers<4>(list);
+  if (std::abs(wxyz.norm() - 1.0) > 1e-3)
+    throw list.Error(fmt::format("found a quaternion of length {:g}, wanted 1", wxyz.norm()));
+  return Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized();
+}
+
+PoseAlternative ReadAlternative(const JsonValue& json) {
+  return {ReadJoints(json.At("joints_in_cam")), ReadNumberOrUnknown(json, "cost"),
+          ReadNumberOrUnknown(json, "reprojection_rms_px")};
+}
+
+PersonPose ReadPerson(const JsonValue& json) {
+  constexpr int kLargestInt = std::numeric_limits<int>::max();
+  PersonPose person;
+  person.id = json.At("id").Integer(std::numeric_limits<int>::min(), kLargestInt);
+  person.status = json.At("status").String();
+  if (const JsonValue* message = json.Find("message")) person.message = message->String();
+  person.joints_in_cam_m = ReadJoints(json.At("joints_in_cam"));
+  person.scale_px_per_m = ReadNumberOrUnknown(json, "scale_px_per_m");
+  if (const JsonValue* translation = json.Find("translation_px"))
+    person.translation_px = ReadNumbers<2>(*translation);
+  if (const JsonValue* rotation = json.Find("rotation_cam_from_body"))
+    person.rotation_cam_from_body = ReadRotation(*rotation);
+  if (const JsonValue* angles = json.Find("angles_deg")) person.angles_deg = ReadNamed(*angles);
+  person.reprojection_rms_px = ReadNumberOrUnknown(json, "reprojection_rms_px");
+  if (const JsonValue* errors = json.Find("per_joint_px")) person.per_joint_px = ReadNamed(*errors);
+  if (const JsonValue* atoms = json.Find("atoms"))
+    for (const JsonValue& atom : atoms->Items()) {
+      if (atom.Items().size() != 2) throw atom.Unwanted("[index, coefficient]");
+      person.atoms.emplace_back(atom.Items()[0].Integer(0, kLargestInt),
+                                ReadNumber(atom.Items()[1]));
+    }
+  if (const JsonValue* alternatives = json.Find("alternatives"))
+    for (const JsonValue& alternative : alternatives->Items())
+      person.alternatives.push_back(ReadAlternative(alternative));
+  return person;
+}
+
+}  // namespace
+
+std::string PosesJson(const Poses& poses) {
+  std::string text = fmt::format(
+      "{{\"format\": \"{}\", \"version\": 1, \"units\": \"m\", \"axes\": \"{}\",\n"
+      " \"joint_names\": [",
+      kFormat, kAxes);
+  for (int j = 0; j < kNumJoints; ++j)
+    text += fmt::format("{}\"{}\"", j > 0 ? ", " : "", Joints()[j].name);
+  text += "],\n \"frames\": [";
+  for (size_t i = 0; i < poses.frames.size(); ++i) {
+    text += i > 0 ? ",\n  " : "\n  ";
+    AppendFrame(poses.frames[i], &text);
+  }
+  return text + "]}\n";
+}
+
+void WritePosesJson(const Poses& poses, const std::filesystem::path& path) {
+  WriteFileAtomically(path, PosesJson(poses));
+}
+
+Poses ReadPosesJson(const std::filesystem::path& path) {
+  const JsonDocument document(path);
+  const JsonValue& root = document.root();
+  if (const JsonValue& format = root.At("format"); format.String() != kFormat)
+    throw format.Unwanted(fmt::format("\"{}\"", kFormat));
+  if (const JsonValue& version = root.At("version"); version.Number() != 1.0)
+    throw version.Unwanted("1, the version that this poselift reads");
+  Poses poses;
+  for (const JsonValue& json : root.At("frames").Items()) {
+    FramePoses frame;
+    if (const JsonValue* image = json.Find("image")) frame.image = image->String();
+    if (const JsonValue* time = json.Find("time_s")) frame.time_s = ReadNumber(*time);
+    for (const JsonValue& person : json.At("people").Items())
+      frame.people.push_back(ReadPerson(person));
+    poses.frames.push_back(std::move(frame));
+  }
+  return poses;
+}
+
+}  // namespace poselift

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "src/poses.h"
+
+namespace poselift {
+
+// poses.json, "poselift-poses" version 1: docs/FORMATS.md. A line for each
+// person; metres and coefficients with 6 digits behind the point, pixels and
+// degrees with 3, quaternions with 9. What is not known (NaN) is left out, a
+// joint as well as a whole key; there is no null.
+//
+// Throws InputError when the file cannot be written.
+void WritePosesJson(const Poses& poses, const std::filesystem::path& path);
+
+// The text that WritePosesJson writes.
+std::string PosesJson(const Poses& poses);
+
+// Reads it back: equal up to the rounding. Unknown keys are passed over.
+// Throws InputError: file:line: the JSON path, what was found, what was wanted.
+Poses ReadPosesJson(const std::filesystem::path& path);
+
+}  // namespace poselift

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "src/pose3.h"
+
+namespace poselift {
+
+// What comes out for each person in each picture: the content of poses.json.
+// NaN is "not known" everywhere: the pose of a person that could not be lifted
+// has NaN joints, scale and rotation, and a status that is not "ok".
+
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+// Another pose that explains the same labels, e.g. a limb bent the other way in depth.
+struct PoseAlternative {
+  Pose3 joints_in_cam_m = Pose3::Constant(3, kNumJoints, kUnknown);  // root-centred
+  double cost = kUnknown;
+  double reprojection_rms_px = kUnknown;
+};
+
+struct PersonPose {
+  int id = 0;
+  std::string status = "not run";  // "ok", or what went wrong in a word or two
+  std::string message;             // the same in a sentence; may be empty
+
+  // 3 x 23 with the pelvis at the origin, metres at the size of the skeleton
+  // used; camera axes: x right, y down, z forward.
+  Pose3 joints_in_cam_m = Pose3::Constant(3, kNumJoints, kUnknown);
+
+  // Weak perspective: x_px = scale * (x, y) + translation.
+  double scale_px_per_m = kUnknown;
+  Eigen::Vector2d translation_px = Eigen::Vector2d::Constant(kUnknown);
+  Eigen::Quaterniond rotation_cam_from_body{kUnknown, kUnknown, kUnknown, kUnknown};
+
+  std::vector<std::pair<std::string, double>> angles_deg;  // "left_elbow.flexion", degrees
+
+  double reprojection_rms_px = kUnknown;
+  std::vector<std::pair<std::string, double>> per_joint_px;  // landmark, its reprojection error
+  std::vector<std::pair<int, double>> atoms;                 // dictionary index, coefficient
+  std::vector<PoseAlternative> alternatives;
+};
+
+struct FramePoses {
+  std::string image;  // may be empty
+  std::optional<double> time_s;
+  std::vector<PersonPose> people;
+};
+
+struct Poses {
+  std::vector<FramePoses> frames;
+};
+
+}  // namespace poselift

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+//
+// Results with made-up numbers, written to poses.json and angles.csv, compared
+// with golden files and read back.
+#include "src/poses.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "src/input_error.h"
+#include "src/io/angles_csv.h"
+#include "src/io/poses_json.h"
+#include "tests/support/mutation.h"
+#include "tests/support/support.h"
+
+namespace poselift {
+namespace {
+
+using testing::FileText;
+using ::testing::HasSubstr;
+using testing::MatrixNear;
+using ::testing::Not;
+using testing::SourcePath;
+using testing::WriteScratch;
+
+PersonPose MadeUpPerson() {
+  PersonPose person;
+  person.id = 4;
+  person.status = "ok";
+  for (int j = 0; j < kNumJoints; ++j)
+    person.joints_in_cam_m.col(j) << 0.01 * j, -0.5 + 0.0625 * j, 1.0 / 3.0 * j;
+  person.joints_in_cam_m.col(joint::kLeftHand).setConstant(kUnknown);
+  person.scale_px_per_m = 183.25;
+  person.translation_px << 320.1234, 240;
+  person.rotation_cam_from_body = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY());
+  person.angles_deg = {{"left_elbow.flexion", 31.25}, {"left_knee.flexion", kUnknown}};
+  person.reprojection_rms_px = 1.7;
+  person.per_joint_px = {{"left_knee", 2.0004}};
+  person.atoms = {{17, 0.75}, {3, -1.5e-3}};
+  person.alternatives.push_back({person.joints_in_cam_m, 3.1, 1.9});
+  return person;
+}
+
+Poses MadeUpPoses() {
+  Poses poses;
+  poses.frames.push_back({"a \"b\".jpg", 0.0, {MadeUpPerson()}});
+  PersonPose failed;
+  failed.id = 4;
+  failed.status = "failed";
+  failed.message = "found 2 joints, wanted 4";
+  PersonPose other = MadeUpPerson();
+  other.id = 1;
+  poses.frames.push_back({"", 1.0 / 30, {other, failed}});
+  poses.frames.push_back({});
+  return poses;
+}
+
+TEST(PosesJson, IsTheGoldenFile) {
+  const auto path = testing::ScratchDir() / "poses.json";
+  WritePosesJson(MadeUpPoses(), path);
+  EXPECT_EQ(FileText(path), FileText(SourcePath("tests/golden/poses.json")));
+}
+
+TEST(PosesJson, NeverHoldsNaNOrInfinity) {
+  Poses poses = MadeUpPoses();
+  PersonPose& person = poses.frames[0].people[0];
+  person.reprojection_rms_px = std::numeric_limits<double>::infinity();
+  person.atoms.emplace_back(5, kUnknown);
+  person.rotation_cam_from_body.x() = kUnknown;
+  const std::string text = PosesJson(poses);
+  for (const char* word : {"nan", "NaN", "inf", "null"}) EXPECT_THAT(text, Not(HasSubstr(word)));
+  EXPECT_EQ(ReadPosesJson(WriteScratch("p.json", text)).frames.size(), 3u);
+}
+
+TEST(PosesJson, ReadBackIsTheSameUpToRounding) {
+  const Poses poses = ReadPosesJson(WriteScratch("poses.json", PosesJson(MadeUpPoses())));
+  ASSERT_EQ(poses.frames.size(), 3u);
+  EXPECT_EQ(poses.frames[0].image, "a \"b\".jpg");
+  EXPECT_NEAR(poses.frames[1].time_s.value(), 1.0 / 30, 1e-6);
+  EXPECT_EQ(poses.frames[2].time_s, std::nullopt);
+  ASSERT_EQ(poses.frames[0].people.size(), 1u);
+  const PersonPose expected = MadeUpPerson();
+  const PersonPose& person = poses.frames[0].people[0];
+  EXPECT_EQ(person.id, expected.id);
+  EXPECT_EQ(person.status, "ok");
+  EXPECT_TRUE(person.joints_in_cam_m.col(joint::kLeftHand).hasNaN());
+  EXPECT_TRUE(MatrixNear(person.joints_in_cam_m.leftCols(18), expected.joints_in_cam_m.leftCols(18),
+                         0.51e-6));
+  EXPECT_EQ(person.scale_px_per_m, expected.scale_px_per_m);
+  EXPECT_TRUE(MatrixNear(person.translation_px, expected.translation_px, 0.51e-3));
+  EXPECT_LT(person.rotation_cam_from_body.angularDistance(expected.rotation_cam_from_body), 1e-7);
+  ASSERT_EQ(person.angles_deg.size(), 1u);  // the unknown one is not in the file
+  EXPECT_EQ(person.angles_deg[0], expected.angles_deg[0]);
+  EXPECT_EQ(person.reprojection_rms_px, 1.7);
+  EXPECT_EQ(person.per_joint_px[0].second, 2.0);
+  EXPECT_EQ(person.atoms, expected.atoms);
+  ASSERT_EQ(person.alternatives.size(), 1u);
+  EXPECT_EQ(person.alternatives[0].cost, 3.1);
+  const PersonPose& failed = poses.frames[1].people[1];
+  EXPECT_EQ(failed.message, "found 2 joints, wanted 4");
+  EXPECT_TRUE(failed.joints_in_cam_m.array().isNaN().all());
+  EXPECT_TRUE(std::isnan(failed.scale_px_per_m));
+}
+
+TEST(PosesJson, OfThousandsOfFramesGrowsWithTheirNumber) {
+  Poses poses;
+  for (int f = 0; f < 5000; ++f) poses.frames.push_back({"", f / 30.0, {MadeUpPerson()}});
+  const std::string text = PosesJson(poses);
+  EXPECT_LT(text.size(), 5000u * 4000u);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2 + 5000 * 2 + 1);
+}
+
+TEST(PosesJson, RefusesWhatDoesNotFit) {
+  const std::string good = PosesJson(MadeUpPoses());
+  const auto complaint = [&](const std::string& from, const std::string& to) -> std::string {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    try {
+      ReadPosesJson(WriteScratch("bad.json", text));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "(read without complaint)";
+  };
+  EXPECT_THAT(complaint("poselift-poses", "poselift-labels"), HasSubstr("format: found"));
+  EXPECT_THAT(complaint("\"left_hip\": [", "\"left_hop\": ["), HasSubstr("unknown joint"));
+  EXPECT_THAT(complaint("\"left_hip\": [", "\"left_hip\": [1, "),
+              HasSubstr("bad.json:5: frames[0].people[0].joints_in_cam.left_hip: found a list of "
+                        "4, wanted a list of 3 numbers"));
+  EXPECT_THAT(complaint("[0.9", "[3.9"), HasSubstr("found a quaternion of length"));
+  EXPECT_THAT(complaint("[17, ", "[-17, "), HasSubstr("found -17, wanted a whole number"));
+}
+
+TEST(PosesJson, DamagedIsReadOrRefused) {
+  auto rng = testing::TestRng();
+  Poses poses = MadeUpPoses();
+  poses.frames.erase(poses.frames.begin() + 1);
+  const std::string good = PosesJson(poses);
+  for (const std::string& damaged : testing::DamagedCopies(good, 300, &rng)) {
+    try {
+      ReadPosesJson(WriteScratch("damaged.json", damaged));
+    } catch (const InputError& error) {
+      ASSERT_THAT(error.what(), HasSubstr("damaged.json"));
+    }
+  }
+}
+
+TEST(AnglesCsv, FollowsTheFirstPersonAndLeavesTheUnknownEmpty) {
+  Poses poses = MadeUpPoses();
+  poses.frames[2].people.push_back(MadeUpPerson());
+  poses.frames[2].people[0].angles_deg = {{"new, \"quoted\"", -0.0001},
+                                          {"left_knee.flexion", 1e-9}};
+  EXPECT_EQ(AnglesCsv(poses),
+            "frame,time_s,left_elbow.flexion,left_knee.flexion,\"new, \"\"quoted\"\"\"\r\n"
+            "0,0,31.25,,\r\n"
+            "1,0.033333,,,\r\n"
+            "2,,,0,0\r\n");
+  const auto path = testing::ScratchDir() / "angles.csv";
+  WriteAnglesCsv(poses, path);
+  EXPECT_EQ(FileText(path), AnglesCsv(poses));
+}
+
+TEST(AnglesCsv, OfNobodyHasOnlyFrames) {
+  Poses poses;
+  poses.frames.resize(2);
+  EXPECT_EQ(AnglesCsv(poses), "frame,time_s\r\n0,\r\n1,\r\n");
+}
+
+}  // namespace
+}  // namespace poselift
