@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "src/joints.h"
+#include "src/units.h"
 
 namespace poselift {
 namespace {
@@ -153,11 +154,13 @@ void DrawRing(cv::Mat* canvas, const Vector2d& center_px, double radius_px, cons
   if (!IsNear(*canvas, center_px, 2.0 * radius + width_px)) return;
   const int width = std::max(1, cvRound(width_px));
   const int fixed_radius = cvRound(radius * (1 << kShift));
-  const int arcs = dashed ? 4 : 1;
-  const double span_deg = dashed ? 56.0 : 360.0;
+  const int arcs = dashed ? 3 : 1;
+  // Half the turn is drawn; the round ends of an arc are beyond its span.
+  const double ends_deg = kDegFromRad * width / std::max(1.0, radius);
+  const double span_deg = dashed ? std::max(12.0, 66.0 - ends_deg) : 360.0;
   const auto draw = [&](const cv::Scalar& ink, int thickness) {
     for (int i = 0; i < arcs; ++i) {
-      const double start_deg = i * 90.0 + 17.0;
+      const double start_deg = i * 120.0 - 90.0 - 0.5 * span_deg;
       cv::ellipse(*canvas, ToFixed(center_px), {fixed_radius, fixed_radius}, 0.0, start_deg,
                   start_deg + span_deg, ink, thickness, cv::LINE_AA, kShift);
     }

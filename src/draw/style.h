@@ -63,7 +63,7 @@ void DrawMark(cv::Mat* canvas, const Eigen::Vector2d& center_px, Side side, cons
 void FillTriangle(cv::Mat* canvas, const std::array<Eigen::Vector2d, 3>& corners_px,
                   const cv::Scalar& color);
 
-// A hollow circle with an ink rim on both sides; dashed ones have four gaps.
+// A hollow circle with an ink rim on both sides; dashed ones have three gaps.
 void DrawRing(cv::Mat* canvas, const Eigen::Vector2d& center_px, double radius_px,
               const cv::Scalar& color, double width_px, bool dashed);
 

@@ -54,11 +54,12 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view byt
   const auto target = std::filesystem::weakly_canonical(path, ignored);
   const auto& destination = target.empty() ? path : target;
   static std::atomic<unsigned> counter{0};
+  std::string temporary_name(".");
+  temporary_name.append(destination.filename().string()).append(".");
+  temporary_name.append(std::to_string(::getpid())).append("-");
+  temporary_name.append(std::to_string(counter++)).append(".tmp");
   std::filesystem::path temporary = destination;
-  std::string name = destination.filename().string();
-  name.insert(name.begin(), '.');
-  name += '.' + std::to_string(::getpid()) + '-' + std::to_string(counter++) + ".tmp";
-  temporary.replace_filename(name);
+  temporary.replace_filename(temporary_name);
   const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (fd < 0) Fail(path, "create a file in its folder", errno);
   if (std::filesystem::exists(status)) ::fchmod(fd, static_cast<mode_t>(status.permissions()));

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
@@ -18,6 +17,7 @@
 #include "src/input_error.h"
 #include "src/io/atomic_file.h"
 #include "src/io/image_size.h"
+#include "src/io/quiet_stderr.h"
 
 namespace poselift {
 namespace {
@@ -25,18 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr uintmax_t kMaxFileBytes = 2'000'000'000;  // 200 megapixels of 16-bit BGR, and more
-
-// A damaged picture is told by our own error, not by lines of OpenCV on stderr.
-class QuietOpenCv {
- public:
-  QuietOpenCv() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
-  ~QuietOpenCv() { cv::utils::logging::setLogLevel(before_); }
-  QuietOpenCv(const QuietOpenCv&) = delete;
-  QuietOpenCv& operator=(const QuietOpenCv&) = delete;
-
- private:
-  cv::utils::logging::LogLevel before_;
-};
 
 std::string ReadBytes(const fs::path& path) {
   std::error_code error;
@@ -71,7 +59,7 @@ void CheckHead(const fs::path& path, std::string_view bytes) {
 }
 
 cv::Mat Decoded(const std::string& bytes) {
-  const QuietOpenCv quiet;
+  const QuietStderr quiet;  // a damaged picture is told by our own error
   const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8U,
                        const_cast<char*>(bytes.data()));  // NOLINT: only read
   try {

@@ -12,6 +12,7 @@ namespace poselift {
 // and PBM/PGM/PPM, told by their first bytes, whatever the file's name.
 // Throws InputError for what is no such file, is damaged, or has more than
 // kMaxImagePixels: the size is read before anything of that size is allocated.
+// stderr is silent for the moment of decoding (see quiet_stderr.h).
 inline constexpr double kMaxImagePixels = 200e6;
 cv::Mat ReadImage(const std::filesystem::path& path);
 
