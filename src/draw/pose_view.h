@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "src/pose3.h"
+
+namespace poselift {
+
+// The picture that shows a 3D pose: four panels of one scale,
+//   front          as the camera sees it
+//   side           from the camera's right; the camera is at the left of the panel
+//   above          the camera is at the bottom of the panel
+//   three-quarter  from between front and the camera's right, and higher
+// all but `above` in a mild perspective from a raised eye, so that the floor
+// opens up; the plane through the middle of the pose is shown to scale. The
+// floor is perpendicular to `up` through the pose's lowest joint, with lines
+// every half metre (metre lines darker), the body's shadow straight below it
+// and plumb lines from the pelvis, hands and feet. An arrow in each panel shows
+// where the camera looks.
+struct PoseViewInput {
+  Pose3 joints_in_cam_m;                     // 3 x 23; x right, y down, z forward
+  std::vector<Pose3> alternatives_in_cam_m;  // 3 x 23 each; thin and grey
+  Eigen::Vector3d up_in_cam = -Eigen::Vector3d::UnitY();
+  std::string title;
+};
+
+struct PoseViewOptions {
+  int panel_px = 520;  // the picture is two panels wide, two high and a line of text
+
+  std::string Validate() const;  // empty when all is well, else what is wrong
+};
+
+// 8-bit BGR. Joints that are not finite, or farther than 10 km, are left out.
+// Throws std::invalid_argument on another number of joints, an `up` without
+// direction, or options that do not validate.
+cv::Mat DrawPoseView(const PoseViewInput& input, const PoseViewOptions& options = {});
+
+}  // namespace poselift
