@@ -21,36 +21,43 @@ void RotateRows(int axis, double angle, Eigen::Matrix3d* rotation) {
 
 }  // namespace
 
+void PlaceBone(const Skeleton& skeleton, int b, int first_dof, const SkeletonPose& pose,
+               BoneFrames* frames) {
+  const Bone& bone = skeleton.bones[b];
+  Eigen::Matrix3d rotation_in_axis = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d shift_in_axis_m = Eigen::Vector3d::Zero();
+  Eigen::Index d = first_dof;
+  for (const Dof& dof : bone.dofs) {
+    if (dof.IsRotation())
+      RotateRows(dof.Axis(), pose.dofs[d], &rotation_in_axis);
+    else
+      shift_in_axis_m[dof.Axis()] += pose.dofs[d];
+    ++d;
+  }
+  const Eigen::Matrix3d& C = bone.rest_from_axis;
+  const Eigen::Matrix3d parent_from_bone = C * rotation_in_axis * C.transpose();
+  if (bone.parent < 0) {
+    frames->world_from_bone[b] = pose.world_from_root.toRotationMatrix() * parent_from_bone;
+    frames->start_in_world_m.col(b) = pose.root_in_world_m;
+  } else {
+    const Eigen::Matrix3d& world_from_parent = frames->world_from_bone[bone.parent];
+    frames->world_from_bone[b] = world_from_parent * parent_from_bone;
+    frames->start_in_world_m.col(b) = frames->start_in_world_m.col(bone.parent) +
+                                      world_from_parent * (bone.offset_m + C * shift_in_axis_m);
+  }
+  frames->tip_in_world_m.col(b) =
+      frames->start_in_world_m.col(b) + frames->world_from_bone[b] * bone.tip_m;
+}
+
 void ForwardKinematics(const Skeleton& skeleton, const SkeletonPose& pose, BoneFrames* frames) {
-  const auto num_bones = static_cast<Eigen::Index>(skeleton.bones.size());
+  const int num_bones = static_cast<int>(skeleton.bones.size());
   frames->world_from_bone.resize(skeleton.bones.size());
   frames->start_in_world_m.resize(3, num_bones);
   frames->tip_in_world_m.resize(3, num_bones);
-  Eigen::Index d = 0;
-  for (Eigen::Index b = 0; b < num_bones; ++b) {
-    const Bone& bone = skeleton.bones[b];
-    Eigen::Matrix3d rotation_in_axis = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d shift_in_axis_m = Eigen::Vector3d::Zero();
-    for (const Dof& dof : bone.dofs) {
-      if (dof.IsRotation())
-        RotateRows(dof.Axis(), pose.dofs[d], &rotation_in_axis);
-      else
-        shift_in_axis_m[dof.Axis()] += pose.dofs[d];
-      ++d;
-    }
-    const Eigen::Matrix3d& C = bone.rest_from_axis;
-    const Eigen::Matrix3d parent_from_bone = C * rotation_in_axis * C.transpose();
-    if (bone.parent < 0) {
-      frames->world_from_bone[b] = pose.world_from_root.toRotationMatrix() * parent_from_bone;
-      frames->start_in_world_m.col(b) = pose.root_in_world_m;
-    } else {
-      const Eigen::Matrix3d& world_from_parent = frames->world_from_bone[bone.parent];
-      frames->world_from_bone[b] = world_from_parent * parent_from_bone;
-      frames->start_in_world_m.col(b) = frames->start_in_world_m.col(bone.parent) +
-                                        world_from_parent * (bone.offset_m + C * shift_in_axis_m);
-    }
-    frames->tip_in_world_m.col(b) =
-        frames->start_in_world_m.col(b) + frames->world_from_bone[b] * bone.tip_m;
+  int first_dof = 0;
+  for (int b = 0; b < num_bones; ++b) {
+    PlaceBone(skeleton, b, first_dof, pose, frames);
+    first_dof += static_cast<int>(skeleton.bones[b].dofs.size());
   }
 }
 

@@ -20,6 +20,11 @@ struct BoneFrames {
 // Reuses the storage of *frames: no allocation after the first call.
 void ForwardKinematics(const Skeleton& skeleton, const SkeletonPose& pose, BoneFrames* frames);
 
+// The step of ForwardKinematics for one bone whose parent has its frame. The
+// bone's dofs start at first_dof; *frames has its sizes.
+void PlaceBone(const Skeleton& skeleton, int bone, int first_dof, const SkeletonPose& pose,
+               BoneFrames* frames);
+
 // f(q): the 23 joints, in world, metres; NaN where the skeleton lacks a joint.
 Pose3 JointPositions(const JointSites& sites, const BoneFrames& frames);
 Pose3 JointPositions(const Skeleton& skeleton, const SkeletonPose& pose);

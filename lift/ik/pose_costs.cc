@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "lift/ik/pose_costs.h"
+
+#include <ceres/cost_function.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "src/forward_kinematics.h"
+
+namespace poselift {
+namespace {
+
+using RowMajorMap =
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
+// dw/dq: how a change of the coefficients x y z w turns the root,
+// R = Exp(w) R0. It is 2 (dq conj(q))_xyz.
+Eigen::Matrix<double, 3, 4> RotationByCoefficients(const Eigen::Quaterniond& q) {
+  Eigen::Matrix<double, 3, 4> jacobian;
+  jacobian << q.w(), -q.z(), q.y(), -q.x(),  //
+      q.z(), q.w(), -q.x(), -q.y(),          //
+      -q.y(), q.x(), q.w(), -q.z();
+  return 2.0 * jacobian;
+}
+
+// What the terms of f(q) share: reading the blocks, forward kinematics, and
+// writing the Jacobian block by block.
+class ArticulatedCost : public ceres::CostFunction {
+ protected:
+  ArticulatedCost(const Articulation& body, std::vector<TargetPoint> points, int rows_a_point)
+      : points_(std::move(points)), body_(body) {
+    pose_.dofs.setZero(body.num_dofs);
+    set_num_residuals(rows_a_point * static_cast<int>(points_.size()));
+    *mutable_parameter_block_sizes() = {3, 4, body.num_dofs};
+  }
+
+  // The points m_i f(q) of the blocks' pose and, if wanted, the joints' Jacobian.
+  void PosePoints(double const* const* parameters, bool with_jacobian) const {
+    pose_.root_in_world_m = Eigen::Map<const Eigen::Vector3d>(parameters[0]);
+    pose_.world_from_root.coeffs() = Eigen::Map<const Eigen::Vector4d>(parameters[1]);
+    pose_.dofs = Eigen::Map<const Eigen::VectorXd>(parameters[2], body_.num_dofs);
+    ForwardKinematics(body_.skeleton, pose_, &frames_);
+    const Pose3 joints_m = JointPositions(body_.sites, frames_);
+    posed_m_.setZero(3, points_.size());
+    for (size_t i = 0; i < points_.size(); ++i)
+      for (const Landmark::Part& part : points_[i].parts)
+        posed_m_.col(i) += part.weight * joints_m.col(part.joint);
+    if (with_jacobian) JointJacobian(body_.skeleton, body_.sites, pose_, frames_, &joint_jacobian_);
+  }
+
+  // by_pose_: residuals by the columns of JointJacobian, from the first
+  // coordinates of each point times a factor.
+  template <int kRowsAPoint>
+  void DifferentiateByPose(double factor) const {
+    by_pose_.setZero(num_residuals(), joint_jacobian_.cols());
+    for (size_t i = 0; i < points_.size(); ++i)
+      for (const Landmark::Part& part : points_[i].parts)
+        by_pose_.middleRows<kRowsAPoint>(kRowsAPoint * i) +=
+            factor * points_[i].root_weight * part.weight *
+            joint_jacobian_.middleRows<kRowsAPoint>(3 * part.joint);
+  }
+
+  void WritePoseJacobians(double** jacobians) const {
+    const Eigen::Index rows = num_residuals();
+    if (jacobians[0]) RowMajorMap(jacobians[0], rows, 3) = by_pose_.leftCols<3>();
+    if (jacobians[1])
+      RowMajorMap(jacobians[1], rows, 4).noalias() =
+          by_pose_.middleCols<3>(3) * RotationByCoefficients(pose_.world_from_root);
+    if (jacobians[2])
+      RowMajorMap(jacobians[2], rows, body_.num_dofs) = by_pose_.rightCols(body_.num_dofs);
+  }
+
+  const std::vector<TargetPoint> points_;
+  // Of the latest evaluation.
+  mutable Eigen::Matrix3Xd posed_m_;
+  mutable Eigen::MatrixXd by_pose_;
+
+ private:
+  const Articulation& body_;
+  mutable SkeletonPose pose_;
+  mutable BoneFrames frames_;
+  mutable Eigen::MatrixXd joint_jacobian_;
+};
+
+class SpaceCost final : public ArticulatedCost {
+ public:
+  SpaceCost(const Articulation& body, std::vector<TargetPoint> points, bool up_to_translation)
+      : ArticulatedCost(body, std::move(points), 3), up_to_translation_(up_to_translation) {}
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    PosePoints(parameters, jacobians != nullptr);
+    Eigen::Map<Eigen::Matrix3Xd> rows(residuals, 3, points_.size());
+    for (size_t i = 0; i < points_.size(); ++i)
+      rows.col(i) = points_[i].root_weight * (posed_m_.col(i) - points_[i].x);
+    if (up_to_translation_) Centre(rows);
+    if (!jacobians) return true;
+    DifferentiateByPose<3>(1.0);
+    if (up_to_translation_)
+      for (auto column : by_pose_.colwise())
+        Centre(Eigen::Map<Eigen::Matrix3Xd>(column.data(), 3, points_.size()));
+    WritePoseJacobians(jacobians);
+    return true;
+  }
+
+ private:
+  // Of rows r_i = u_i d_i with root weights u_i, takes u_i times the weighted
+  // mean of the d off each.
+  void Centre(Eigen::Map<Eigen::Matrix3Xd> rows) const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double total_weight = 0.0;
+    for (size_t i = 0; i < points_.size(); ++i) {
+      sum += points_[i].root_weight * rows.col(i);
+      total_weight += points_[i].root_weight * points_[i].root_weight;
+    }
+    for (size_t i = 0; i < points_.size(); ++i)
+      rows.col(i) -= points_[i].root_weight * (sum / total_weight);
+  }
+
+  bool up_to_translation_;
+};
+
+class ReprojectionCost final : public ArticulatedCost {
+ public:
+  ReprojectionCost(const Articulation& body, std::vector<TargetPoint> points)
+      : ArticulatedCost(body, std::move(points), 2) {
+    mutable_parameter_block_sizes()->push_back(3);
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    PosePoints(parameters, jacobians != nullptr);
+    const double scale_px_per_m = std::exp(parameters[3][0]);
+    const Eigen::Vector2d translation_px(parameters[3][1], parameters[3][2]);
+    for (size_t i = 0; i < points_.size(); ++i)
+      Eigen::Map<Eigen::Vector2d>(residuals + 2 * i) =
+          points_[i].root_weight *
+          (scale_px_per_m * posed_m_.col(i).head<2>() + translation_px - points_[i].x.head<2>());
+    if (!jacobians) return true;
+    DifferentiateByPose<2>(scale_px_per_m);
+    WritePoseJacobians(jacobians);
+    if (jacobians[3])
+      for (size_t i = 0; i < points_.size(); ++i)
+        RowMajorMap(jacobians[3] + 6 * i, 2, 3)
+            << points_[i].root_weight * scale_px_per_m * posed_m_.col(i).head<2>(),
+            points_[i].root_weight * Eigen::Matrix2d::Identity();
+    return true;
+  }
+};
+
+class SpringCost final : public ceres::CostFunction {
+ public:
+  explicit SpringCost(const DofSprings& springs) : springs_(springs) {
+    const int num_dofs = static_cast<int>(springs.rest.size());
+    set_num_residuals(num_dofs);
+    *mutable_parameter_block_sizes() = {num_dofs};
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const Eigen::Index num_dofs = springs_.rest.size();
+    const Eigen::Map<const Eigen::VectorXd> dofs(parameters[0], num_dofs);
+    const Eigen::VectorXd excess = dofs - dofs.cwiseMax(springs_.lower).cwiseMin(springs_.upper);
+    Eigen::Map<Eigen::VectorXd>(residuals, num_dofs) =
+        springs_.pull * (dofs - springs_.rest) + springs_.stiffness * excess;
+    if (!jacobians || !jacobians[0]) return true;
+    RowMajorMap by_dofs(jacobians[0], num_dofs, num_dofs);
+    by_dofs.setZero();
+    for (Eigen::Index d = 0; d < num_dofs; ++d)
+      by_dofs(d, d) = springs_.pull + (excess[d] == 0.0 ? 0.0 : springs_.stiffness);
+    return true;
+  }
+
+ private:
+  DofSprings springs_;
+};
+
+}  // namespace
+
+std::unique_ptr<ceres::CostFunction> MakeSpaceCost(const Articulation& body,
+                                                   std::vector<TargetPoint> points,
+                                                   bool up_to_translation) {
+  return std::make_unique<SpaceCost>(body, std::move(points), up_to_translation);
+}
+
+std::unique_ptr<ceres::CostFunction> MakeReprojectionCost(const Articulation& body,
+                                                          std::vector<TargetPoint> points) {
+  return std::make_unique<ReprojectionCost>(body, std::move(points));
+}
+
+std::unique_ptr<ceres::CostFunction> MakeSpringCost(const DofSprings& springs) {
+  return std::make_unique<SpringCost>(springs);
+}
+
+}  // namespace poselift
