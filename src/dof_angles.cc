@@ -3,6 +3,7 @@
 #include "src/dof_angles.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -3,6 +3,7 @@
 #include "src/retarget.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "src/dof_angles.h"
 #include "src/forward_kinematics.h"

@@ -3,7 +3,7 @@
 #include "src/io/bvh_rig.h"
 
 #include <Eigen/Geometry>
-#include <array>
+#include <algorithm>
 #include <optional>
 #include <string_view>
 
@@ -67,17 +67,13 @@ std::vector<bool> FindMelted(const Skeleton& skeleton) {
   return melted;
 }
 
+// The form of BvhWriter: all three shifts or none, then the rotations.
 std::vector<Dof> JointDofs(const Bone& bone) {
   if (bone.parent < 0) return {};
-  std::vector<Dof> dofs;
-  for (const Dof::Kind kind : {Dof::Kind::kTx, Dof::Kind::kTy, Dof::Kind::kTz})
-    for (const Dof& dof : bone.dofs)
-      if (!dof.IsRotation()) {
-        dofs.push_back({kind});
-        break;
-      }
-  for (const Dof::Kind kind : {Dof::Kind::kRy, Dof::Kind::kRx, Dof::Kind::kRz})
-    dofs.push_back({kind});
+  std::vector<Dof> dofs = {{Dof::Kind::kRy}, {Dof::Kind::kRx}, {Dof::Kind::kRz}};
+  const bool shifts = std::any_of(bone.dofs.begin(), bone.dofs.end(),
+                                  [](const Dof& dof) { return !dof.IsRotation(); });
+  if (shifts) dofs.insert(dofs.begin(), {{Dof::Kind::kTx}, {Dof::Kind::kTy}, {Dof::Kind::kTz}});
   return dofs;
 }
 

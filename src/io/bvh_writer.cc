@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the poselift authors
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -80,6 +81,7 @@ class BvhWriter {
                               "Zrotation Xrotation Yrotation");
   }
 
+  // See JointDofs of the rig.
   static bool HasShifts(const Bone& bone) { return bone.dofs.size() == 6; }
 
   void AppendOffset(const Eigen::Vector3d& offset_m, size_t depth) {

@@ -26,8 +26,8 @@ int main(int argc, char** argv) {
         const Eigen::Vector3d start = frames.start_in_world_m.col(static_cast<int>(b));
         const Eigen::Vector3d tip = frames.tip_in_world_m.col(static_cast<int>(b));
         std::printf("%zu %s %.9f %.9f %.9f %.9f %.9f %.9f\n", f,
-                    motion.skeleton.bones[b].name.c_str(), start.x(), start.y(), start.z(),
-                    tip.x(), tip.y(), tip.z());
+                    motion.skeleton.bones[b].name.c_str(), start.x(), start.y(), start.z(), tip.x(),
+                    tip.y(), tip.z());
       }
     }
   } catch (const std::exception& error) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the poselift authors
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -22,15 +24,13 @@ bool HasEnding(const std::filesystem::path& path, std::string_view ending) {
 
 // Whether one of the first lines begins with the word.
 bool HasLine(std::string_view head, std::string_view word) {
-  for (size_t at = 0; at != std::string_view::npos && at < head.size();) {
-    const std::string_view line = head.substr(head.find_first_not_of(" \t\r\n", at) == head.npos
-                                                  ? head.size()
-                                                  : head.find_first_not_of(" \t\r\n", at));
-    if (EqualsIgnoringCase(line.substr(0, word.size()), word)) return true;
-    at = head.find('\n', at);
-    if (at != std::string_view::npos) ++at;
+  for (;;) {
+    const size_t start = head.find_first_not_of(" \t\r\n");
+    if (start == std::string_view::npos) return false;
+    head.remove_prefix(start);
+    if (EqualsIgnoringCase(head.substr(0, word.size()), word)) return true;
+    head.remove_prefix(std::min(head.find('\n'), head.size()));
   }
-  return false;
 }
 
 Json Triple(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
