@@ -17,7 +17,7 @@ namespace {
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 constexpr double kGimbalLock = 1e-7;  // cosine of the middle angle, or of half the swing
 
-enum class Sequence { kXzy, kYxz, kYzx, kSwingTwist };
+enum class Sequence { kXzy, kYzx, kSwingTwist };
 
 // One angle: its name, the axis of its part of D and the sign that makes the
 // named movement positive.
@@ -50,7 +50,7 @@ void AddLimbRows(const std::string& side, const std::string& letter, double outw
   rows->push_back(
       {"root",
        letter + "femur",
-       Sequence::kXzy,
+       Sequence::kSwingTwist,
        {{{side + "_hip.flexion", "the thigh swings forward"}, 0, -1},
         {{side + "_hip.abduction", "the thigh swings outward"}, 2, outward},
         {{side + "_hip.rotation", "the thigh turns inward about its length"}, 1, inward}}});
@@ -60,8 +60,9 @@ void AddLimbRows(const std::string& side, const std::string& letter, double outw
                    {{{side + "_knee.flexion", "the knee bends, the heel goes back"}, 0, 1}}});
   rows->push_back({letter + "tibia",
                    letter + "foot",
-                   Sequence::kYxz,
+                   Sequence::kXzy,
                    {{{side + "_ankle.dorsiflexion", "the toes rise towards the shin"}, 0, -1},
+                    {{side + "_ankle.inversion", "the sole turns inward"}, 2, inward},
                     {{side + "_ankle.rotation", "the toes turn inward"}, 1, inward}}});
   rows->push_back(
       {"thorax",
@@ -162,8 +163,6 @@ Eigen::Vector3d Decomposed(const Eigen::Matrix3d& D, Sequence sequence,
   switch (sequence) {
     case Sequence::kXzy:
       return EulerAngles(D, {0, 2, 1}, false, previous);
-    case Sequence::kYxz:
-      return EulerAngles(D, {1, 0, 2}, false, previous);
     // Whoever turns a cartwheel passes the gimbal lock; a joint cannot.
     case Sequence::kYzx:
       return EulerAngles(D, {1, 2, 0}, true, previous);

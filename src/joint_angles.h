@@ -17,19 +17,18 @@ namespace poselift {
 // Zero is standing straight: arms hanging, palms to the thighs, legs straight
 // down, feet forward. With S the rotation world_from_segment of a segment, the
 // identity in that pose, and D = S_parent^T S_child (x left, y up, z forward):
-//   hips, knees, elbows, spine  D = Rx Rz Ry: flexion about the parent's
-//                               x, abduction or side bend, then rotation about
-//                               the child's own length (Grood and Suntay 1983)
-//   ankles                      D = Ry Rx: the foot turns, then flexes; a CMU
-//                               foot has these two dofs and no inversion
-//   shoulders                   D = Exp(sx, 0, sz) Ry(t): the swing of the arm
-//                               as one rotation vector, then the turn about its
-//                               length. Raised forwards or sideways by 90 every
-//                               Euler sequence has a gimbal lock in arm's reach;
-//                               the swing has its one singularity straight up.
-//   pelvis                      S = Ry Rz Rx: rotation, obliquity, tilt (Baker 2001)
+//   knees, ankles, elbows,   D = Rx Rz Ry: flexion about the parent's x, side
+//   wrists, spine            bend or inversion, then rotation about the child's
+//                            own y, as Grood and Suntay (1983)
+//   hips, shoulders          D = Exp(sx, 0, sz) Ry(t): the swing of the limb as
+//                            one rotation vector (flexion, abduction), then the
+//                            turn about its length. With the limb raised
+//                            sideways by 90 an Euler sequence would be in gimbal
+//                            lock; this one is only with the limb straight up.
+//   pelvis                   S = Ry Rz Rx: rotation, obliquity, tilt (Baker 2001)
 // The same movement has the same sign on both sides: flexion, abduction,
-// internal rotation, dorsiflexion and pronation are positive.
+// rotation inward, dorsiflexion, inversion and pronation are positive. A CMU foot
+// has two dofs only: its inversion follows from the other two.
 struct JointAngle {
   std::string name;      // "left_elbow.flexion"
   std::string positive;  // the movement that makes it grow
