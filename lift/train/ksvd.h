@@ -19,7 +19,7 @@ namespace poselift {
 // matching right one (by power iteration: the other singular pairs are not
 // needed). An atom nobody uses is replaced by the worst coded pose.
 struct KsvdOptions {
-  int sparsity = 4;
+  int sparsity = 6;
   int max_iterations = 15;
   double min_improvement = 1e-3;  // relative, of the error; smaller ends the training
 

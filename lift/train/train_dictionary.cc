@@ -87,7 +87,7 @@ int AtomsForTarget(const Eigen::MatrixXd& poses, const std::vector<int>& drawn,
 }
 
 Eigen::MatrixXd TrainAtoms(const Eigen::MatrixXd& poses, const TrainOptions& options,
-                           const TrainProgress& progress, TrainReport* report) {
+                           const ProgressFn& progress, TrainReport* report) {
   const auto subsets = SplitBySubset(poses, options);
   std::vector<Eigen::MatrixXd> atoms(subsets.size());
   report->subsets.assign(subsets.size(), {});

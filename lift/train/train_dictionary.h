@@ -4,11 +4,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "lift/train/ksvd.h"
+#include "src/progress.h"
 
 namespace poselift {
 
@@ -22,10 +22,10 @@ struct TrainOptions {
   int num_atoms = 0;  // in all; 0: by the size rule
   // The size rule: n starts at first_atoms poses drawn from the subset and grows
   // by 1.5 until they code it with at most delta times the target error.
-  double target_error_m = 0.012;  // e_t, RMS of a joint
+  double target_error_m = 0.03;  // e_t, RMS of a joint
   double delta = 2.0;
   int first_atoms = 16;  // n_0
-  int num_subsets = 24;
+  int num_subsets = 16;
   KsvdOptions ksvd;
   std::uint64_t seed = 1;
   int num_threads = 0;  // 0: all
@@ -43,11 +43,9 @@ struct TrainReport {
   double rms_error_m = 0.0;  // of all poses, each coded over its own subset's atoms
 };
 
-using TrainProgress = std::function<void(double fraction)>;
-
 // The same poses, options and seed give the same atoms, whatever the threads.
 Eigen::MatrixXd TrainAtoms(const Eigen::MatrixXd& poses, const TrainOptions& options,
-                           const TrainProgress& progress, TrainReport* report);
+                           const ProgressFn& progress, TrainReport* report);
 
 // The size rule alone: how many of the poses, in their order in `drawn`, must be
 // atoms so that the rest is coded to delta * target.

@@ -18,6 +18,8 @@ using AddCommand = CLI::App* (*)(CLI::App*, Run*);
 constexpr std::array kCommands = {
     AddCommand{poselift::cli::AddConvert},
     AddCommand{poselift::cli::AddInfo},
+    AddCommand{poselift::cli::AddTrain},
+    AddCommand{poselift::cli::AddEvaluate},
 };
 
 int RunGuarded(const Run& run) {

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lift/eval/synthetic_view.h"
+#include "src/observation.h"
+#include "src/pose3.h"
+#include "src/progress.h"
+
+namespace poselift {
+
+// How far lifted poses are from the truth: known poses are seen by random
+// cameras, their labels go to every method, and the methods' answers are
+// compared with the poses. All methods get the same labels.
+
+struct LiftMethod {
+  std::string name;
+  // Joints in cam; nothing when the method gives up.
+  std::function<std::optional<Pose3>(const Observation&)> lift;
+};
+
+struct LiftEvaluation {
+  std::string method;
+  std::string views;
+  double noise_mm = 0.0;
+  int num_poses = 0;
+  int num_failed = 0;  // not in the errors
+  double pa_mm = 0.0, pa_standard_error_mm = 0.0, pa_median_mm = 0.0;
+  double cam_mm = 0.0, cam_standard_error_mm = 0.0, cam_median_mm = 0.0;
+  double ms_per_lift = 0.0;  // of one thread's time
+};
+
+struct EvaluateLiftOptions {
+  std::string layout = "body15";
+  std::vector<ViewRange> views = {kLevelViews, kFreeViews};
+  std::vector<double> noises_m = {0.0, 0.020};
+  int num_poses = 2000;
+  std::uint64_t seed = 1;
+};
+
+// test_poses_m: 69 x m, body frame; num_poses columns are drawn.
+std::vector<LiftEvaluation> EvaluateLift(const std::vector<LiftMethod>& methods,
+                                         const Eigen::MatrixXd& test_poses_m,
+                                         const EvaluateLiftOptions& options,
+                                         const ProgressFn& progress);
+
+}  // namespace poselift

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "lift/lift_photo.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lift/normalize.h"
+
+namespace poselift {
+namespace {
+
+Eigen::Vector3d PointInCam_m(const ObservedPoint& point, const Pose3& joints_in_cam_m) {
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  for (const auto& [joint, weight] : point.parts) x += weight * joints_in_cam_m.col(joint);
+  return x;
+}
+
+// The shift of the body that suits the 3D points best.
+Eigen::Vector3d MeanShift_m(const Observation& observation, const Pose3& joints_in_cam_m) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double weights = 0.0;
+  for (const ObservedPoint& point : observation.points) {
+    if (point.kind != ObservedPoint::Kind::k3D) continue;
+    const double weight = 1.0 / (point.sigma * point.sigma);
+    sum += weight * (point.x - PointInCam_m(point, joints_in_cam_m));
+    weights += weight;
+  }
+  return weights > 0.0 ? Eigen::Vector3d(sum / weights) : sum;
+}
+
+void MeasureErrors(const Observation& observation, LiftedPose* lifted) {
+  const Eigen::Vector3d shift_m = MeanShift_m(observation, lifted->joints_in_cam_m);
+  lifted->point_errors.resize(static_cast<Eigen::Index>(observation.points.size()));
+  double squared_px = 0.0;
+  for (size_t i = 0; i < observation.points.size(); ++i) {
+    const ObservedPoint& point = observation.points[i];
+    const Eigen::Vector3d x_in_cam_m = PointInCam_m(point, lifted->joints_in_cam_m);
+    double error = (x_in_cam_m + shift_m - point.x).norm();
+    if (point.kind == ObservedPoint::Kind::k2D) {
+      error = (lifted->camera.Project(x_in_cam_m) - point.x.head<2>()).norm();
+      squared_px += error * error;
+    }
+    lifted->point_errors[static_cast<Eigen::Index>(i)] = error;
+  }
+  if (const int count = observation.Count(ObservedPoint::Kind::k2D); count > 0)
+    lifted->reprojection_rms_px = std::sqrt(squared_px / count);
+}
+
+}  // namespace
+
+std::string LiftPhotoOptions::Validate() const {
+  for (const std::string& error : {lifter.Validate(), refinement.Validate()})
+    if (!error.empty()) return error;
+  if (max_solutions < 1)
+    return fmt::format("LiftPhotoOptions::max_solutions = {}, wanted at least 1", max_solutions);
+  return "";
+}
+
+std::string LiftResult::BriefReport() const {
+  if (!IsUsable()) return message;
+  return fmt::format("reprojection {:.1f} px RMS, {} atoms, {} alternatives",
+                     poses.front().reprojection_rms_px, poses.front().code.atoms.size(),
+                     poses.size() - 1);
+}
+
+PhotoLifter::PhotoLifter(const Dictionary& dictionary, const LiftPhotoOptions& options)
+    : dictionary_(dictionary),
+      options_(options),
+      lifter_(dictionary, options.lifter),
+      refinement_(dictionary.skeleton, options.refinement),
+      bone_lengths_m_(BoneLengths(dictionary.skeleton)) {}
+
+LiftResult PhotoLifter::LiftPhoto(const Observation& observation) const {
+  LiftResult result;
+  if (const std::string reason = CanLift(observation); !reason.empty()) {
+    result.status = LiftStatus::kCannotLift;
+    result.message = reason;
+    return result;
+  }
+  const std::vector<LiftSolution> solutions = lifter_.Solve(observation);  // (P1)
+  for (const LiftSolution& solution : solutions) {
+    if (static_cast<int>(result.poses.size()) == options_.max_solutions) break;
+    LiftedPose lifted = Finish(solution, observation);  // Algorithm 1, (P2), (P0)
+    if (lifted.cost >= 0.0) result.poses.push_back(std::move(lifted));
+  }
+  std::stable_sort(result.poses.begin(), result.poses.end(),
+                   [](const LiftedPose& a, const LiftedPose& b) { return a.cost < b.cost; });
+  result.status = result.poses.empty() ? LiftStatus::kFailed : LiftStatus::kOk;
+  result.message = result.poses.empty() ? "no pose of the skeleton fits the points" : "";
+  return result;
+}
+
+LiftedPose PhotoLifter::Finish(const LiftSolution& solution, const Observation& observation) const {
+  const Pose3 pose_in_cam = CamFromBody(solution.tau_rad) * Unstacked(solution.pose_in_body_m);
+  const Pose3 normalized_m = NormalizePose(pose_in_cam, bone_lengths_m_);
+  const RefinementResult refined = refinement_.Solve(normalized_m, observation);
+  LiftedPose lifted;
+  if (!IsUsable(refined.status)) return lifted;
+  lifted.pose = refined.pose;
+  lifted.joints_in_cam_m = refined.joints_in_cam_m;
+  lifted.camera = refined.camera;
+  if (!refined.has_camera) lifted.camera.scale_px_per_m = 0.0;
+  lifted.code = solution.code;
+  MeasureErrors(observation, &lifted);
+  lifted.cost = Cost(lifted, observation);
+  return lifted;
+}
+
+double PhotoLifter::Cost(const LiftedPose& lifted, const Observation& observation) const {
+  double cost =
+      RotationPriorCost(TauFromRotation(lifted.camera.cam_from_body), options_.lifter.rotation);
+  for (size_t i = 0; i < observation.points.size(); ++i) {
+    const double sigmas =
+        lifted.point_errors[static_cast<Eigen::Index>(i)] / observation.points[i].sigma;
+    cost += sigmas * sigmas;
+  }
+  if (dictionary_.prior.Empty()) return cost;
+  const Pose3 in_body_m = lifted.camera.cam_from_body.transpose() * lifted.joints_in_cam_m;
+  const Eigen::VectorXd whitened =
+      dictionary_.prior.whitening * (Stacked(in_body_m) - dictionary_.prior.mean_m);
+  const double weight = options_.lifter.prior_weight;
+  return cost + weight * weight * whitened.squaredNorm();
+}
+
+}  // namespace poselift

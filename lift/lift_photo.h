@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "lift/dictionary.h"
+#include "lift/ik/pose_refinement.h"
+#include "lift/lifter.h"
+#include "lift/sparse_code.h"
+#include "lift/weak_camera.h"
+#include "src/observation.h"
+#include "src/pose3.h"
+#include "src/skeleton.h"
+
+namespace poselift {
+
+struct LiftPhotoOptions {
+  LifterOptions lifter;
+  RefinementOptions refinement;
+  int max_solutions = 4;  // distinct poses that are carried to the end
+
+  std::string Validate() const;
+};
+
+// A pose that explains the points.
+struct LiftedPose {
+  SkeletonPose pose;      // joint angles; its world is cam, the root at the origin
+  Pose3 joints_in_cam_m;  // 3 x 23, pelvis at the origin, bone lengths of the skeleton
+  WeakCamera camera;      // scale 0 without 2D points
+  SparseCode code;        // x: metres
+  // What is left to explain, in squared standard deviations: the points', the
+  // pose's and the rotation's.
+  double cost = -1.0;
+  Eigen::VectorXd point_errors;       // of each observed point, px or m
+  double reprojection_rms_px = -1.0;  // over the 2D points; -1 without any
+};
+
+enum class LiftStatus { kNotRun, kOk, kCannotLift, kFailed };
+
+struct LiftResult {
+  LiftStatus status = LiftStatus::kNotRun;
+  std::string message = "the lift was not run";
+  std::vector<LiftedPose> poses;  // the best first, its alternatives behind it
+
+  bool IsUsable() const { return status == LiftStatus::kOk; }
+  std::string BriefReport() const;
+};
+
+// From the observed points of one person to poses with joint angles.
+class PhotoLifter {
+ public:
+  // The dictionary must outlive the lifter. Throws std::invalid_argument when
+  // the options are invalid.
+  explicit PhotoLifter(const Dictionary& dictionary, const LiftPhotoOptions& options = {});
+
+  // Several threads may call at once.
+  LiftResult LiftPhoto(const Observation& observation) const;
+
+ private:
+  LiftedPose Finish(const LiftSolution& solution, const Observation& observation) const;
+  double Cost(const LiftedPose& lifted, const Observation& observation) const;
+
+  const Dictionary& dictionary_;
+  LiftPhotoOptions options_;
+  Lifter lifter_;
+  PoseRefinement refinement_;
+  Eigen::VectorXd bone_lengths_m_;
+};
+
+}  // namespace poselift
