@@ -15,15 +15,17 @@ namespace poselift {
 //   1. the root by Kabsch on the hips, which are rigid with it, and the trunk;
 //   2. bone by bone outwards, the dofs that point a bone at its joints. Where
 //      a hinge follows (knee, elbow), its axis is also turned to the normal of
-//      the plane of the two bones, which settles the twist.
+//      the plane of the two bones, which settles the twist. Within the limits,
+//      which tells apart the two sets of three angles that turn alike.
 class InitialPose {
  public:
   explicit InitialPose(const Articulation& body);
 
   // body: the constructor's. weights: 23, zero where the target has no joint.
   // What the target does not show stays as in from_dofs.
-  SkeletonPose Find(const Articulation& body, const Pose3& target_in_world_m,
-                    const Eigen::VectorXd& weights, const Eigen::VectorXd& from_dofs) const;
+  SkeletonPose Find(const Articulation& body, const DofLimits& limits,
+                    const Pose3& target_in_world_m, const Eigen::VectorXd& weights,
+                    const Eigen::VectorXd& from_dofs) const;
 
  private:
   // A joint that is rigid with a bone.
@@ -50,8 +52,17 @@ class InitialPose {
                          const Eigen::VectorXd& weights, const Eigen::VectorXd& dofs) const;
   std::vector<Aim> AimsOf(int bone, const Eigen::Vector3d& start_m, const Pose3& target_m,
                           const Eigen::VectorXd& weights) const;
-  static void TurnBone(const Bone& bone, const Eigen::Matrix3d& world_from_parent,
-                       const std::vector<Aim>& aims, Eigen::Ref<Eigen::VectorXd> dofs);
+
+  // One bone with its place, its aims and the range of its dofs.
+  struct Turn {
+    const Bone& bone;
+    Eigen::Matrix3d world_from_parent;
+    std::vector<Aim> aims;
+    Eigen::VectorXd lower;
+    Eigen::VectorXd upper;
+  };
+  static Eigen::VectorXd BestDofs(const Turn& turn, const Eigen::VectorXd& from);
+  static double TurnFrom(const Turn& turn, const Eigen::VectorXd& from, Eigen::VectorXd* dofs);
 
   std::vector<std::vector<Handle>> handles_;  // of each bone
   std::vector<std::vector<Hinge>> hinges_;

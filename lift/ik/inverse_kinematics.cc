@@ -93,8 +93,9 @@ std::string IkResult::BriefReport() const {
 
 InverseKinematics::InverseKinematics(Skeleton skeleton, const IkOptions& options)
     : body_(std::move(skeleton)),
-      initial_pose_(body_),
       options_(options),
+      limits_(body_, options.enforce_limits),
+      initial_pose_(body_),
       reach_m_(Reach_m(body_.skeleton)) {
   if (const std::string error = options.Validate(); !error.empty()) throw InputError(error);
   if (body_.num_dofs == 0)
@@ -118,22 +119,17 @@ void InverseKinematics::CheckSizes(const Pose3& target_in_world_m, const IkHints
     throw std::invalid_argument("inverse kinematics: start is no pose of the skeleton");
 }
 
-Pose3 InverseKinematics::Joints(const SkeletonPose& pose) const {
-  BoneFrames frames;
-  ForwardKinematics(body_.skeleton, pose, &frames);
-  return JointPositions(body_.sites, frames);
-}
-
 // A start that is given wins if it is nearer than what the target suggests
 // from its dofs: after a jump it is not.
 SkeletonPose InverseKinematics::Start(const Pose3& target_m, const Eigen::VectorXd& weights,
-                                      const IkHints& hints) const {
-  const Eigen::VectorXd rest_dofs = hints.rest_dofs.value_or(Eigen::VectorXd::Zero(body_.num_dofs));
-  const SkeletonPose found =
-      initial_pose_.Find(body_, target_m, weights, hints.start ? hints.start->dofs : rest_dofs);
+                                      const DofSprings& springs, const IkHints& hints) const {
+  const Eigen::VectorXd& from_dofs = hints.start ? hints.start->dofs : springs.rest;
+  const SkeletonPose found = initial_pose_.Find(body_, limits_, target_m, weights, from_dofs);
   if (!hints.start) return found;
-  const double found_m2 = weights.dot(SquaredDistances(Joints(found), target_m, weights));
-  const double given_m2 = weights.dot(SquaredDistances(Joints(*hints.start), target_m, weights));
+  const double found_m2 =
+      weights.dot(SquaredDistances(JointPositions(body_, found), target_m, weights));
+  const double given_m2 =
+      weights.dot(SquaredDistances(JointPositions(body_, *hints.start), target_m, weights));
   return given_m2 <= found_m2 ? *hints.start : found;
 }
 
@@ -157,10 +153,12 @@ IkResult InverseKinematics::Solve(const Pose3& target_in_world_m, const IkHints&
   IkHints local = hints;
   if (local.start) local.start->root_in_world_m -= middle_m;
 
-  const DofSprings springs =
-      MakeDofSprings(body_, hints.rest_dofs.value_or(Eigen::VectorXd::Zero(body_.num_dofs)),
-                     options_.pull_m_per_rad, kLimitStiffness_m_per_rad, options_.enforce_limits);
-  PoseProblem problem(body_, Start(target_m, weights, local), springs);
+  const Eigen::VectorXd rest_dofs = hints.rest_dofs.value_or(Eigen::VectorXd::Zero(body_.num_dofs));
+  const DofSprings springs{.limits = limits_,
+                           .rest = limits_.Clamp(rest_dofs),
+                           .pull = options_.pull_m_per_rad,
+                           .stiffness = kLimitStiffness_m_per_rad};
+  PoseProblem problem(body_, Start(target_m, weights, springs, local), springs);
   problem.AddPoseTerm(MakeTargetCost(body_, target_m, weights));
   const PoseProblemOutcome outcome =
       problem.Solve(options_.max_iterations, options_.function_tolerance);
@@ -171,7 +169,8 @@ IkResult InverseKinematics::Solve(const Pose3& target_in_world_m, const IkHints&
   result.iterations = outcome.iterations;
   if (!IsUsable(outcome.status)) return result;
   result.pose = problem.pose();
-  const Eigen::VectorXd squared_m2 = SquaredDistances(Joints(result.pose), target_m, weights);
+  const Eigen::VectorXd squared_m2 =
+      SquaredDistances(JointPositions(body_, result.pose), target_m, weights);
   result.rms_m = std::sqrt(squared_m2.sum() / static_cast<double>(num_present));
   result.max_m = std::sqrt(squared_m2.maxCoeff());
   result.pose.root_in_world_m += middle_m;

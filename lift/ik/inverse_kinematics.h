@@ -27,7 +27,7 @@ struct IkOptions {
   double pull_m_per_rad = 1e-3;
   int max_iterations = 100;
   // Done when a step lowers the cost by less than this part of it.
-  double function_tolerance = 1e-4;
+  double function_tolerance = 1e-5;
 
   // Empty when all is well, else what is wrong.
   std::string Validate() const;
@@ -80,12 +80,12 @@ class InverseKinematics {
  private:
   void CheckSizes(const Pose3& target_in_world_m, const IkHints& hints) const;
   SkeletonPose Start(const Pose3& target_m, const Eigen::VectorXd& weights,
-                     const IkHints& hints) const;
-  Pose3 Joints(const SkeletonPose& pose) const;
+                     const DofSprings& springs, const IkHints& hints) const;
 
   Articulation body_;
-  InitialPose initial_pose_;
   IkOptions options_;
+  DofLimits limits_;
+  InitialPose initial_pose_;
   double reach_m_;  // from the root along the longest chain of bones
 };
 

@@ -163,7 +163,7 @@ class SpringCost final : public ceres::CostFunction {
                 double** jacobians) const override {
     const Eigen::Index num_dofs = springs_.rest.size();
     const Eigen::Map<const Eigen::VectorXd> dofs(parameters[0], num_dofs);
-    const Eigen::VectorXd excess = dofs - dofs.cwiseMax(springs_.lower).cwiseMin(springs_.upper);
+    const Eigen::VectorXd excess = dofs - springs_.limits.Clamp(dofs);
     Eigen::Map<Eigen::VectorXd>(residuals, num_dofs) =
         springs_.pull * (dofs - springs_.rest) + springs_.stiffness * excess;
     if (!jacobians || !jacobians[0]) return true;

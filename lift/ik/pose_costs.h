@@ -48,9 +48,8 @@ std::unique_ptr<ceres::CostFunction> MakeReprojectionCost(const Articulation& bo
 
 // A spring on each dof: weak within the limits, stiff outside.
 struct DofSprings {
+  DofLimits limits;
   Eigen::VectorXd rest;    // D, within the limits
-  Eigen::VectorXd lower;   // D
-  Eigen::VectorXd upper;   // D
   double pull = 0.0;       // residual per radian (or metre) from rest
   double stiffness = 0.0;  // residual per radian (or metre) beyond a limit
 };

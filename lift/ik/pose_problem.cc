@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace poselift {
 namespace {
@@ -50,31 +49,13 @@ bool IsUsable(IkStatus status) {
   return status == IkStatus::kConverged || status == IkStatus::kMaxIterations;
 }
 
-DofSprings MakeDofSprings(const Articulation& body, const Eigen::VectorXd& rest_dofs, double pull,
-                          double stiffness, bool enforce_limits) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  DofSprings springs{.pull = pull, .stiffness = stiffness};
-  springs.lower.setConstant(body.num_dofs, -kInfinity);
-  springs.upper.setConstant(body.num_dofs, kInfinity);
-  if (enforce_limits) {
-    Eigen::Index d = 0;
-    for (const Bone& bone : body.skeleton.bones)
-      for (const Dof& dof : bone.dofs) {
-        springs.lower[d] = dof.lower;
-        springs.upper[d++] = dof.upper;
-      }
-  }
-  springs.rest = rest_dofs.cwiseMax(springs.lower).cwiseMin(springs.upper);
-  return springs;
-}
-
 PoseProblem::PoseProblem(const Articulation& body, const SkeletonPose& start,
                          const DofSprings& springs)
     : pose_(start),
       springs_(springs),
       holds_(body.num_dofs, Hold::kFree),
       problem_(std::make_unique<ceres::Problem>(ProblemOptions())) {
-  pose_.dofs = pose_.dofs.cwiseMax(springs.lower).cwiseMin(springs.upper);
+  pose_.dofs = springs.limits.Clamp(pose_.dofs);
   manifolds_.push_back(std::make_unique<ceres::EigenQuaternionManifold>());
   problem_->AddParameterBlock(pose_.root_in_world_m.data(), 3);
   problem_->AddParameterBlock(pose_.world_from_root.coeffs().data(), 4, manifolds_.back().get());
@@ -100,20 +81,39 @@ void PoseProblem::HoldRootPosition() {
 
 PoseProblemOutcome PoseProblem::Solve(int max_iterations, double function_tolerance) {
   PoseProblemOutcome outcome;
+  SkeletonPose best_pose = pose_;
+  Eigen::Vector3d best_camera = camera_;
+  double best_cost = Cost();
   int iterations = 0;
-  for (int round = 0; round < kMaxRounds; ++round) {
+  bool settled = false;
+  for (int round = 0; round < kMaxRounds && !settled; ++round) {
     outcome = Minimize(max_iterations - iterations, function_tolerance);
     iterations += outcome.iterations;
-    if (outcome.status != IkStatus::kConverged) break;
-    if (!HoldOutsideDofs() && !ReleaseInsideDofs()) break;
-    ApplyHeld();
-    outcome.status = IkStatus::kMaxIterations;
-    outcome.message = "the set of active limits did not settle";
-    if (iterations >= max_iterations) break;
+    if (outcome.status == IkStatus::kFailed) break;
+    const bool all_inside = !HoldOutsideDofs();
+    if (const double cost = Cost(); cost <= best_cost) {
+      best_pose = pose_;
+      best_camera = camera_;
+      best_cost = cost;
+    }
+    settled = all_inside && !ReleaseInsideDofs();
+    if (!settled) ApplyHeld();
+    if (outcome.status == IkStatus::kMaxIterations || iterations >= max_iterations) break;
   }
   outcome.iterations = iterations;
-  pose_.dofs = pose_.dofs.cwiseMax(springs_.lower).cwiseMin(springs_.upper);
+  if (outcome.status == IkStatus::kConverged && !settled) {
+    outcome.status = IkStatus::kMaxIterations;
+    outcome.message = "the set of active limits did not settle";
+  }
+  pose_ = best_pose;
+  camera_ = best_camera;
   return outcome;
+}
+
+double PoseProblem::Cost() {
+  double cost = 0.0;
+  problem_->Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
+  return cost;
 }
 
 PoseProblemOutcome PoseProblem::Minimize(int max_iterations, double function_tolerance) {
@@ -136,14 +136,13 @@ PoseProblemOutcome PoseProblem::Minimize(int max_iterations, double function_tol
 // Brings free dofs from outside to their limit. False when there was none.
 bool PoseProblem::HoldOutsideDofs() {
   bool any = false;
+  const Eigen::VectorXd inside = springs_.limits.Clamp(pose_.dofs);
   for (size_t d = 0; d < holds_.size(); ++d) {
-    const double inside = std::clamp(pose_.dofs[d], springs_.lower[d], springs_.upper[d]);
-    if (std::abs(pose_.dofs[d] - inside) > kOutside_rad) {
-      holds_[d] = holds_[d] == Hold::kReleased ? Hold::kKept : Hold::kHeld;
-      any = true;
-    }
-    pose_.dofs[d] = inside;
+    if (std::abs(pose_.dofs[d] - inside[d]) <= kOutside_rad) continue;
+    holds_[d] = holds_[d] == Hold::kReleased ? Hold::kKept : Hold::kHeld;
+    any = true;
   }
+  pose_.dofs = inside;
   return any;
 }
 
@@ -159,7 +158,7 @@ bool PoseProblem::ReleaseInsideDofs() {
   bool any = false;
   for (size_t d = 0; d < holds_.size(); ++d) {
     if (holds_[d] != Hold::kHeld) continue;
-    const bool at_lower = pose_.dofs[d] <= springs_.lower[d];
+    const bool at_lower = pose_.dofs[d] <= springs_.limits.lower[d];
     if (at_lower ? gradient[d] >= 0.0 : gradient[d] <= 0.0) continue;
     holds_[d] = Hold::kReleased;
     any = true;

@@ -30,11 +30,6 @@ const char* IkStatusName(IkStatus status);
 // True when there is a pose to use.
 bool IsUsable(IkStatus status);
 
-// The weak pull of every dof to rest_dofs, and the limits of the skeleton's
-// dofs if they are wanted, else none.
-DofSprings MakeDofSprings(const Articulation& body, const Eigen::VectorXd& rest_dofs, double pull,
-                          double stiffness, bool enforce_limits);
-
 struct PoseProblemOutcome {
   IkStatus status = IkStatus::kNotRun;
   std::string message;
@@ -46,10 +41,11 @@ struct PoseProblemOutcome {
 //   min_q  sum_k 1/2 |r_k(q)|^2   with   lower <= dofs <= upper
 // by Ceres' Levenberg-Marquardt. The limits are an active set around it: Ceres
 // minimises with the springs alone, dofs that end outside are held at their
-// limit, those whose gradient leads back inside are let go, and again. (The
-// bounds of Ceres itself project each step of all unknowns, which stalls when
-// several limits are active: measured three times slower, and short of the
-// minimum in half of all mocap frames.)
+// limit, those whose gradient leads back inside are let go, and again; the best
+// pose within the limits is the answer, so never a worse one than the start,
+// brought within the limits. (The bounds of Ceres itself project each step of all unknowns, which
+// stalls when several limits are active: measured three times slower, and short of the minimum in
+// half of all mocap frames.)
 //
 // The articulation must outlive it. Runs on the calling thread, says nothing
 // on stderr.
@@ -75,6 +71,7 @@ class PoseProblem {
 
  private:
   PoseProblemOutcome Minimize(int max_iterations, double function_tolerance);
+  double Cost();
   bool HoldOutsideDofs();
   bool ReleaseInsideDofs();
   void ApplyHeld();

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "lift/ik/inverse_kinematics.h"
+#include "lift/weak_camera.h"
+#include "src/observation.h"
+#include "src/pose3.h"
+
+namespace poselift {
+
+struct RefinementOptions {
+  // gamma of Eq. (4): 1 / sigma^2 of a prior coordinate, here 5 cm. Large: the
+  // prior's pose; small: the labels.
+  double gamma_per_m2 = 400.0;
+  // What one radian from rest weighs beside the other terms, in standard
+  // deviations: see IkOptions::pull_m_per_rad.
+  double pull_per_rad = 0.02;
+  bool enforce_limits = true;
+  int max_iterations = 100;
+  // Done when a step lowers the cost by less than this part of it.
+  double function_tolerance = 1e-6;
+
+  // Empty when all is well, else what is wrong.
+  std::string Validate() const;
+};
+
+struct RefinementResult {
+  IkStatus status = IkStatus::kNotRun;
+  std::string message = "pose refinement was not run";
+  // All below: to be used if IsUsable(status).
+  SkeletonPose pose;        // its world is cam, its root at the origin
+  Pose3 joints_in_cam_m;    // f(q): exactly the skeleton's bone lengths
+  WeakCamera camera;        // cam_from_body is the pose's root rotation
+  bool has_camera = false;  // false without 2D points: scale and translation unknown
+  int iterations = 0;
+  double prior_rms_m = -1.0;          // f(q) to the prior
+  double reprojection_rms_px = -1.0;  // f(q) to the 2D points; -1 without any
+
+  std::string BriefReport() const;
+};
+
+// The pose synthesis problem (P0), Eq. (4), for a fixed code x, over the pose
+// q (root rotation and dofs), the scale s and the translation t:
+//   min  gamma |y - f(q)|^2                                     prior y = A x
+//      + sum_i |s (m_i f(q))_xy + t - x_i_px|^2 / sigma_i^2     2D points
+//      + sum_k |m_k f(q) + u - x_k_m|^2 / sigma_k^2             3D points
+//      + the weak pull of the dofs to rest,   lower <= dofs <= upper, s > 0.
+// f has the skeleton's bone lengths, so that these hold exactly while labels
+// and prior are traded off. s multiplies the camera and not, as printed, the
+// pose: y is in metres. log s is optimised; u, the best shift of the 3D
+// points, is eliminated.
+class PoseRefinement {
+ public:
+  // Throws InputError when the options are invalid or the skeleton has no dofs.
+  explicit PoseRefinement(Skeleton skeleton, const RefinementOptions& options = {});
+
+  // prior_in_cam_m: 3 x 23, pelvis at the origin, already turned into cam (x
+  // right, y down, z forward); NaN = no such joint, at least three must be
+  // there. Inverse kinematics on it, from `start` if given (a pose in cam), is
+  // where the search starts. The observation may lack either kind; 2D points
+  // must be two or more, not all at one place. Points that need a joint the
+  // skeleton lacks, or are not finite, are left out. Several threads may call
+  // at once. Wrong sizes and sigmas throw std::invalid_argument.
+  RefinementResult Solve(const Pose3& prior_in_cam_m, const Observation& observation,
+                         const std::optional<SkeletonPose>& start = std::nullopt) const;
+
+ private:
+  InverseKinematics start_ik_;
+  RefinementOptions options_;
+};
+
+}  // namespace poselift

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+//
+// The cost functions on the made-up CMU skeleton at random poses: analytic
+// Jacobians against Ridders' differences (ceres::GradientChecker, along the
+// quaternion's manifold), residuals against their formulas written out.
+#include "lift/ik/pose_costs.h"
+
+#include <ceres/cost_function.h>
+#include <ceres/gradient_checker.h>
+#include <ceres/manifold.h>
+
+#include <cmath>
+
+#include "tests/support/cmu_like_skeleton.h"
+#include "tests/support/random_pose.h"
+#include "tests/support/support.h"
+
+namespace poselift {
+namespace {
+
+using testing::MatrixNear;
+using testing::RandomPoseWithinLimits;
+using testing::TestRng;
+using testing::TrimmedCmuLikeSkeleton;
+
+struct Blocks {
+  SkeletonPose pose;
+  Eigen::Vector3d camera;
+
+  std::vector<double*> Pointers(size_t count) {
+    std::vector<double*> all = {pose.root_in_world_m.data(), pose.world_from_root.coeffs().data(),
+                                pose.dofs.data(), camera.data()};
+    all.resize(count);
+    return all;
+  }
+};
+
+Blocks RandomBlocks(const Articulation& body, std::mt19937_64* rng) {
+  return {RandomPoseWithinLimits(body.skeleton, 0.9, rng), {std::log(180.0), 310.0, 250.0}};
+}
+
+// Single joints and a sum of joints, with unequal weights.
+std::vector<TargetPoint> SomePoints() {
+  return {{{{joint::kLeftHand, 1.0}}, {0.3, -0.2, 0.9}, 2.0},
+          {{{joint::kLeftHip, 0.5}, {joint::kRightHip, 0.5}}, {0.1, 0.4, -0.5}, 0.5},
+          {{{joint::kRightFoot, 1.0}}, {-0.7, 0.8, 0.2}, 1.0},
+          {{{joint::kUpperNeck, 0.4}, {joint::kHeadTop, 0.6}}, {0.0, -0.6, 0.3}, 3.0}};
+}
+
+// Compared by absolute error: a relative one fails at zeros.
+void ExpectJacobiansAgree(const ceres::CostFunction& cost, const std::vector<double*>& blocks,
+                          const std::vector<const ceres::Manifold*>& manifolds) {
+  const ceres::GradientChecker checker(&cost, &manifolds, ceres::NumericDiffOptions());
+  ceres::GradientChecker::ProbeResults results;
+  checker.Probe(blocks.data(), 1e-6, &results);
+  ASSERT_TRUE(results.return_value) << results.error_log;
+  ASSERT_EQ(results.local_jacobians.size(), blocks.size());
+  for (size_t b = 0; b < blocks.size(); ++b)
+    EXPECT_TRUE(MatrixNear(results.local_jacobians[b], results.local_numeric_jacobians[b], 1e-7))
+        << "block " << b;
+}
+
+void ExpectJacobiansAgree(const ceres::CostFunction& cost, Blocks blocks) {
+  const size_t num_blocks = cost.parameter_block_sizes().size();
+  const ceres::EigenQuaternionManifold quaternion;
+  std::vector<const ceres::Manifold*> manifolds = {nullptr, &quaternion, nullptr, nullptr};
+  manifolds.resize(num_blocks);
+  ExpectJacobiansAgree(cost, blocks.Pointers(num_blocks), manifolds);
+}
+
+Eigen::VectorXd Residuals(const ceres::CostFunction& cost, Blocks blocks) {
+  Eigen::VectorXd residuals(cost.num_residuals());
+  cost.Evaluate(blocks.Pointers(cost.parameter_block_sizes().size()).data(), residuals.data(),
+                nullptr);
+  return residuals;
+}
+
+TEST(PoseCosts, JacobiansEqualDifferences) {
+  auto rng = TestRng();
+  const Articulation body(TrimmedCmuLikeSkeleton());
+  for (int trial = 0; trial < 3; ++trial) {
+    const Blocks blocks = RandomBlocks(body, &rng);
+    ExpectJacobiansAgree(*MakeSpaceCost(body, SomePoints(), false), blocks);
+    ExpectJacobiansAgree(*MakeSpaceCost(body, SomePoints(), true), blocks);
+    ExpectJacobiansAgree(*MakeReprojectionCost(body, SomePoints()), blocks);
+  }
+}
+
+TEST(PoseCosts, SpringJacobianEqualsDifferencesInsideAndOutsideTheLimits) {
+  const Articulation body(TrimmedCmuLikeSkeleton());
+  DofSprings springs{.limits = DofLimits(body, true), .pull = 0.3, .stiffness = 7.0};
+  springs.limits.lower = Eigen::Vector3d::Constant(-0.5);
+  springs.limits.upper = Eigen::Vector3d::Constant(0.5);
+  springs.rest = Eigen::Vector3d(0.1, 0.0, -0.2);
+  const auto cost = MakeSpringCost(springs);
+  Eigen::Vector3d dofs(0.2, 0.9, -0.8);
+  const std::vector<double*> block = {dofs.data()};
+  ExpectJacobiansAgree(*cost, block, {nullptr});
+  Eigen::Vector3d residuals;
+  cost->Evaluate(block.data(), residuals.data(), nullptr);
+  EXPECT_TRUE(MatrixNear(
+      residuals, Eigen::Vector3d(0.3 * 0.1, 0.3 * 0.9 + 7 * 0.4, -0.3 * 0.6 - 7 * 0.3), 1e-14));
+}
+
+TEST(PoseCosts, SpaceResidualIsTheWeightedDifferenceOfTheSummedJoints) {
+  auto rng = TestRng();
+  const Articulation body(TrimmedCmuLikeSkeleton());
+  const Blocks blocks = RandomBlocks(body, &rng);
+  const Pose3 joints_m = JointPositions(body, blocks.pose);
+  const Eigen::VectorXd residuals = Residuals(*MakeSpaceCost(body, SomePoints(), false), blocks);
+  const Eigen::Vector3d mid_hip_m =
+      0.5 * (joints_m.col(joint::kLeftHip) + joints_m.col(joint::kRightHip));
+  EXPECT_TRUE(MatrixNear(residuals.segment<3>(3), 0.5 * (mid_hip_m - SomePoints()[1].x), 1e-14));
+}
+
+TEST(PoseCosts, UpToTranslationIgnoresACommonShiftAndIsTheLeastOverShifts) {
+  auto rng = TestRng();
+  const Articulation body(TrimmedCmuLikeSkeleton());
+  const Blocks blocks = RandomBlocks(body, &rng);
+  std::vector<TargetPoint> shifted = SomePoints();
+  for (TargetPoint& point : shifted) point.x += Eigen::Vector3d(3.0, -2.0, 5.0);
+  const Eigen::VectorXd centred = Residuals(*MakeSpaceCost(body, SomePoints(), true), blocks);
+  EXPECT_TRUE(MatrixNear(centred, Residuals(*MakeSpaceCost(body, shifted, true), blocks), 1e-12));
+  // At the least over shifts, the weighted sum of the differences is zero.
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (size_t i = 0; i < shifted.size(); ++i)
+    sum += shifted[i].root_weight * centred.segment<3>(3 * i);
+  EXPECT_LT(sum.norm(), 1e-12);
+}
+
+TEST(PoseCosts, ReprojectionResidualIsTheWeakPerspectiveOne) {
+  auto rng = TestRng();
+  const Articulation body(TrimmedCmuLikeSkeleton());
+  const Blocks blocks = RandomBlocks(body, &rng);
+  const Pose3 joints_m = JointPositions(body, blocks.pose);
+  const Eigen::VectorXd residuals = Residuals(*MakeReprojectionCost(body, SomePoints()), blocks);
+  const Eigen::Vector2d hand_px =
+      180.0 * joints_m.col(joint::kLeftHand).head<2>() + Eigen::Vector2d(310.0, 250.0);
+  EXPECT_TRUE(
+      MatrixNear(residuals.head<2>(), 2.0 * (hand_px - SomePoints()[0].x.head<2>()), 1e-10));
+}
+
+}  // namespace
+}  // namespace poselift
