@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
-#include <CLI/Error.hpp>
-#include <CLI/Validators.hpp>
 #include <CLI/Config.hpp>
+#include <CLI/Error.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -66,6 +66,25 @@ void Print(const TrainReport& report, const Dictionary& dictionary) {
              dictionary.record.sparsity);
 }
 
+// What makes the same dictionary again, without the paths of this machine.
+std::string Command(const Options& options) {
+  const auto name = [](const std::filesystem::path& path) {
+    return path.has_filename() ? path.filename() : path.parent_path().filename();
+  };
+  std::string command = fmt::format(
+      "poselift train --mocap {} --atoms {} --target-mm {:g} --sparsity {} --iterations {} "
+      "--subsets {} --stride {} --seed {}",
+      name(options.mocap).string(), options.atoms, 1e3 * options.train.target_error_m,
+      options.train.ksvd.sparsity, options.train.ksvd.max_iterations, options.train.num_subsets,
+      options.load.stride, options.train.seed);
+  if (!options.choice.subjects.empty())
+    command += fmt::format(" --subjects {}", fmt::join(options.choice.subjects, ","));
+  if (!options.choice.fallback_asf.empty())
+    command += " --asf " + name(options.choice.fallback_asf).string();
+  if (options.no_mirror) command += " --no-mirror";
+  return command;
+}
+
 int Train(const Options& options) {
   Dictionary dictionary;
   const auto sources = FindMotions(options.mocap, options.choice);
@@ -80,6 +99,8 @@ int Train(const Options& options) {
   dictionary.typical_norm_m = poses.poses_m.colwise().norm().mean();
   dictionary.prior = LearnPosePrior(poses.poses_m);
   dictionary.record = {.sources = poses.files,
+                       .command = Command(options),
+                       .commit = POSELIFT_COMMIT,
                        .num_poses = poses.poses_m.cols(),
                        .mirrored = !options.no_mirror,
                        .sparsity = options.train.ksvd.sparsity,
@@ -128,9 +149,9 @@ CLI::App* AddTrain(CLI::App* app, Run* run) {
   command->add_option("--json", options->json, "Training report: error per iteration, atom use");
   command->callback([options, command] {
     if (options->atoms != "auto") {
-      const auto [end, error] = std::from_chars(
-          options->atoms.data(), options->atoms.data() + options->atoms.size(),
-          options->train.num_atoms);
+      const auto [end, error] =
+          std::from_chars(options->atoms.data(), options->atoms.data() + options->atoms.size(),
+                          options->train.num_atoms);
       if (error != std::errc() || *end != '\0' || options->train.num_atoms < 1)
         throw CLI::ValidationError("--atoms", "wanted a number above 0 or auto");
     }
