@@ -118,7 +118,7 @@ double PoseProblem::Cost() {
 
 PoseProblemOutcome PoseProblem::Minimize(int max_iterations, double function_tolerance) {
   ceres::Solver::Options options;
-  // Three times as fast as DENSE_QR here; the springs keep it well posed.
+  // Twice as fast as DENSE_QR here; the springs keep it well posed.
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   // The start is good: nearly full Gauss-Newton steps from the first.
   options.initial_trust_region_radius = 1e6;

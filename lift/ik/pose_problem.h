@@ -42,10 +42,10 @@ struct PoseProblemOutcome {
 // by Ceres' Levenberg-Marquardt. The limits are an active set around it: Ceres
 // minimises with the springs alone, dofs that end outside are held at their
 // limit, those whose gradient leads back inside are let go, and again; the best
-// pose within the limits is the answer, so never a worse one than the start,
-// brought within the limits. (The bounds of Ceres itself project each step of all unknowns, which
-// stalls when several limits are active: measured three times slower, and short of the minimum in
-// half of all mocap frames.)
+// pose within the limits is the answer, so never a worse one than the start.
+// (The bounds of Ceres itself project each step of all unknowns, which stalls
+// when several limits are active: measured twice as slow, and short of the
+// minimum in half of all captured frames.)
 //
 // The articulation must outlive it. Runs on the calling thread, says nothing
 // on stderr.

@@ -2,12 +2,11 @@
 // Copyright (c) 2026 the poselift authors
 //
 // The cost functions on the made-up CMU skeleton at random poses: analytic
-// Jacobians against Ridders' differences (ceres::GradientChecker, along the
-// quaternion's manifold), residuals against their formulas written out.
+// Jacobians against central differences along the quaternion's manifold, residuals against their
+// formulas written out.
 #include "lift/ik/pose_costs.h"
 
 #include <ceres/cost_function.h>
-#include <ceres/gradient_checker.h>
 #include <ceres/manifold.h>
 
 #include <cmath>
@@ -48,25 +47,49 @@ std::vector<TargetPoint> SomePoints() {
           {{{joint::kUpperNeck, 0.4}, {joint::kHeadTop, 0.6}}, {0.0, -0.6, 0.3}, 3.0}};
 }
 
-// Compared by absolute error: a relative one fails at zeros.
-void ExpectJacobiansAgree(const ceres::CostFunction& cost, const std::vector<double*>& blocks,
-                          const std::vector<const ceres::Manifold*>& manifolds) {
-  const ceres::GradientChecker checker(&cost, &manifolds, ceres::NumericDiffOptions());
-  ceres::GradientChecker::ProbeResults results;
-  checker.Probe(blocks.data(), 1e-6, &results);
-  ASSERT_TRUE(results.return_value) << results.error_log;
-  ASSERT_EQ(results.local_jacobians.size(), blocks.size());
-  for (size_t b = 0; b < blocks.size(); ++b)
-    EXPECT_TRUE(MatrixNear(results.local_jacobians[b], results.local_numeric_jacobians[b], 1e-7))
-        << "block " << b;
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// The analytic Jacobian of one block along its tangent against central
+// differences. The block is put back.
+void ExpectJacobianAgrees(const ceres::CostFunction& cost, const std::vector<double*>& blocks,
+                          size_t b, const ceres::Manifold& manifold) {
+  const int size = manifold.AmbientSize();
+  RowMajorMatrix by_block(cost.num_residuals(), size);
+  std::vector<double*> jacobians(blocks.size(), nullptr);
+  jacobians[b] = by_block.data();
+  Eigen::VectorXd residuals(cost.num_residuals());
+  cost.Evaluate(blocks.data(), residuals.data(), jacobians.data());
+  const Eigen::VectorXd start = Eigen::Map<Eigen::VectorXd>(blocks[b], size);
+  RowMajorMatrix by_tangent(size, manifold.TangentSize());
+  manifold.PlusJacobian(start.data(), by_tangent.data());
+
+  constexpr double kStep = 1e-6;
+  Eigen::MatrixXd numeric(cost.num_residuals(), manifold.TangentSize());
+  for (int k = 0; k < manifold.TangentSize(); ++k) {
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(manifold.TangentSize());
+    Eigen::VectorXd behind(cost.num_residuals());
+    step[k] = kStep;
+    manifold.Plus(start.data(), step.data(), blocks[b]);
+    cost.Evaluate(blocks.data(), residuals.data(), nullptr);
+    step[k] = -kStep;
+    manifold.Plus(start.data(), step.data(), blocks[b]);
+    cost.Evaluate(blocks.data(), behind.data(), nullptr);
+    numeric.col(k) = (residuals - behind) / (2 * kStep);
+  }
+  Eigen::Map<Eigen::VectorXd>(blocks[b], size) = start;
+  EXPECT_TRUE(MatrixNear(by_block * by_tangent, numeric, 1e-6)) << "block " << b;
 }
 
 void ExpectJacobiansAgree(const ceres::CostFunction& cost, Blocks blocks) {
-  const size_t num_blocks = cost.parameter_block_sizes().size();
-  const ceres::EigenQuaternionManifold quaternion;
-  std::vector<const ceres::Manifold*> manifolds = {nullptr, &quaternion, nullptr, nullptr};
-  manifolds.resize(num_blocks);
-  ExpectJacobiansAgree(cost, blocks.Pointers(num_blocks), manifolds);
+  const std::vector<double*> pointers = blocks.Pointers(cost.parameter_block_sizes().size());
+  for (size_t b = 0; b < pointers.size(); ++b) {
+    if (b == 1)
+      ExpectJacobianAgrees(cost, pointers, b, ceres::EigenQuaternionManifold());
+    else
+      ExpectJacobianAgrees(
+          cost, pointers, b,
+          ceres::EuclideanManifold<ceres::DYNAMIC>(cost.parameter_block_sizes()[b]));
+  }
 }
 
 Eigen::VectorXd Residuals(const ceres::CostFunction& cost, Blocks blocks) {
@@ -96,7 +119,7 @@ TEST(PoseCosts, SpringJacobianEqualsDifferencesInsideAndOutsideTheLimits) {
   const auto cost = MakeSpringCost(springs);
   Eigen::Vector3d dofs(0.2, 0.9, -0.8);
   const std::vector<double*> block = {dofs.data()};
-  ExpectJacobiansAgree(*cost, block, {nullptr});
+  ExpectJacobianAgrees(*cost, block, 0, ceres::EuclideanManifold<3>());
   Eigen::Vector3d residuals;
   cost->Evaluate(block.data(), residuals.data(), nullptr);
   EXPECT_TRUE(MatrixNear(
