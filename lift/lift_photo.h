@@ -59,6 +59,8 @@ class PhotoLifter {
   // Several threads may call at once.
   LiftResult LiftPhoto(const Observation& observation) const;
 
+  const Dictionary& dictionary() const { return dictionary_; }
+
  private:
   LiftedPose Finish(const LiftSolution& solution, const Observation& observation) const;
   double Cost(const LiftedPose& lifted, const Observation& observation) const;

@@ -10,6 +10,9 @@ using namespace joint;  // NOLINT(google-build-using-namespace): the tables belo
 // Heads: the crown, head_top, is the end of the CMU head bone, about a hand's
 // breadth below the real crown's hair; the ears sit beside its middle.
 const std::vector<Landmark::Part> kMidHead = {{kUpperNeck, 0.4}, {kHeadTop, 0.6}};
+// Wrists: CMU splits the forearm in two bones and its wrist joint, the end of
+// the first, lies two thirds down the forearm. The wrist that people label is
+// the end of the second, the joint "hand".
 constexpr double kHalfHead_m = 0.07;  // an ear lies this far beside the middle of the head
 constexpr double kToe_m = 0.03;
 constexpr double kMidHip_m = 0.02;
@@ -27,22 +30,22 @@ Layout Body15() {
           {Joint("pelvis", kPelvis), Joint("neck", kThorax), Joint("head_top", kHeadTop),
            Joint("left_shoulder", kLeftShoulder), Joint("right_shoulder", kRightShoulder),
            Joint("left_elbow", kLeftElbow), Joint("right_elbow", kRightElbow),
-           Joint("left_wrist", kLeftWrist), Joint("right_wrist", kRightWrist),
+           Joint("left_wrist", kLeftHand), Joint("right_wrist", kRightHand),
            Joint("left_hip", kLeftHip), Joint("right_hip", kRightHip),
            Joint("left_knee", kLeftKnee), Joint("right_knee", kRightKnee),
            Joint("left_ankle", kLeftAnkle), Joint("right_ankle", kRightAnkle)}};
 }
 
 Layout Coco17() {
-  return {"coco17",
-          {LeftOut("nose"), LeftOut("left_eye"), LeftOut("right_eye"), Ear("left_ear"),
-           Ear("right_ear"), Joint("left_shoulder", kLeftShoulder),
-           Joint("right_shoulder", kRightShoulder), Joint("left_elbow", kLeftElbow),
-           Joint("right_elbow", kRightElbow), Joint("left_wrist", kLeftWrist),
-           Joint("right_wrist", kRightWrist), Joint("left_hip", kLeftHip),
-           Joint("right_hip", kRightHip), Joint("left_knee", kLeftKnee),
-           Joint("right_knee", kRightKnee), Joint("left_ankle", kLeftAnkle),
-           Joint("right_ankle", kRightAnkle)}};
+  return {
+      "coco17",
+      {LeftOut("nose"), LeftOut("left_eye"), LeftOut("right_eye"), Ear("left_ear"),
+       Ear("right_ear"), Joint("left_shoulder", kLeftShoulder),
+       Joint("right_shoulder", kRightShoulder), Joint("left_elbow", kLeftElbow),
+       Joint("right_elbow", kRightElbow), Joint("left_wrist", kLeftHand),
+       Joint("right_wrist", kRightHand), Joint("left_hip", kLeftHip), Joint("right_hip", kRightHip),
+       Joint("left_knee", kLeftKnee), Joint("right_knee", kRightKnee),
+       Joint("left_ankle", kLeftAnkle), Joint("right_ankle", kRightAnkle)}};
 }
 
 Layout OpenPose25() {
@@ -51,10 +54,10 @@ Layout OpenPose25() {
            Neck("neck"),
            Joint("right_shoulder", kRightShoulder),
            Joint("right_elbow", kRightElbow),
-           Joint("right_wrist", kRightWrist),
+           Joint("right_wrist", kRightHand),
            Joint("left_shoulder", kLeftShoulder),
            Joint("left_elbow", kLeftElbow),
-           Joint("left_wrist", kLeftWrist),
+           Joint("left_wrist", kLeftHand),
            Landmark{"mid_hip", {{kLeftHip, 0.5}, {kRightHip, 0.5}}, kMidHip_m},
            Joint("right_hip", kRightHip),
            Joint("right_knee", kRightKnee),
@@ -78,9 +81,9 @@ Layout OpenPose18() {
   return {
       "openpose18",
       {LeftOut("nose"), Neck("neck"), Joint("right_shoulder", kRightShoulder),
-       Joint("right_elbow", kRightElbow), Joint("right_wrist", kRightWrist),
+       Joint("right_elbow", kRightElbow), Joint("right_wrist", kRightHand),
        Joint("left_shoulder", kLeftShoulder), Joint("left_elbow", kLeftElbow),
-       Joint("left_wrist", kLeftWrist), Joint("right_hip", kRightHip),
+       Joint("left_wrist", kLeftHand), Joint("right_hip", kRightHip),
        Joint("right_knee", kRightKnee), Joint("right_ankle", kRightAnkle),
        Joint("left_hip", kLeftHip), Joint("left_knee", kLeftKnee), Joint("left_ankle", kLeftAnkle),
        LeftOut("right_eye"), LeftOut("left_eye"), Ear("right_ear"), Ear("left_ear")}};

@@ -19,6 +19,7 @@
 #include "lift/train/training_poses.h"
 #include "src/io/atomic_file.h"
 #include "ui/cli/command.h"
+#include "ui/cli/methods.h"
 #include "ui/cli/progress.h"
 
 namespace poselift::cli {
@@ -45,15 +46,6 @@ Dictionary Learn(const TrainingPoses& loaded, const Options& options) {
   dictionary.typical_norm_m = poses.colwise().norm().mean();
   dictionary.prior = LearnPosePrior(poses);
   return dictionary;
-}
-
-// (P1) as the paper has it: no prior on the pose. One start: from the front.
-LifterOptions PaperOptions(bool several_starts) {
-  LifterOptions options;
-  options.prior_weight = 0.0;
-  options.omp.max_atoms = 5;
-  if (!several_starts) options.views = {.num_yaws = 1, .pitches_rad = {0.0}, .num_starts = 1};
-  return options;
 }
 
 LiftMethod CodeOnly(std::string name, const Dictionary& dictionary, const LifterOptions& options) {
@@ -136,10 +128,10 @@ int EvaluateLifts(const Options& options) {
   const TrainingPoses test = load(options.test_subjects, true);
   const Dictionary dictionary = Learn(train, options);
   const std::vector<LiftMethod> methods = {
-      CodeOnly("paper, one start", dictionary, PaperOptions(false)),
-      CodeOnly("paper, several starts", dictionary, PaperOptions(true)),
-      Exemplars(train.poses_m, options.exemplars), CodeOnly("with pose prior", dictionary, {}),
-      Whole("poselift (with P2 and P0)", dictionary)};
+      CodeOnly("paper, one start", dictionary, FindMethod("paper-one-start").lifter),
+      CodeOnly("paper, several starts", dictionary, FindMethod("paper").lifter),
+      Exemplars(train.poses_m, options.exemplars), CodeOnly("poselift, code alone", dictionary, {}),
+      Whole("poselift", dictionary)};
   Progress progress("lift");
   const auto rows = EvaluateLift(methods, test.poses_m, options.evaluation, progress.Callback());
   fmt::print("{} atoms; {} poses of {} test frames, seed {}, {}; mean ± standard error\n",

@@ -16,9 +16,8 @@ using poselift::cli::Run;
 using AddCommand = CLI::App* (*)(CLI::App*, Run*);
 
 constexpr std::array kCommands = {
-    AddCommand{poselift::cli::AddConvert},
-    AddCommand{poselift::cli::AddInfo},
-    AddCommand{poselift::cli::AddTrain},
+    AddCommand{poselift::cli::AddConvert},  AddCommand{poselift::cli::AddInfo},
+    AddCommand{poselift::cli::AddLift},     AddCommand{poselift::cli::AddTrain},
     AddCommand{poselift::cli::AddEvaluate},
 };
 

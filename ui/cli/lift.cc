@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "lift/default_dictionary.h"
+#include "lift/dictionary_file.h"
+#include "lift/lift_labels.h"
+#include "src/io/angles_csv.h"
+#include "src/io/camera_yaml.h"
+#include "src/io/motion_file.h"
+#include "src/io/poses_json.h"
+#include "ui/cli/command.h"
+#include "ui/cli/lift_inputs.h"
+#include "ui/cli/lift_pictures.h"
+#include "ui/cli/methods.h"
+#include "ui/cli/progress.h"
+#include "ui/cli/truth.h"
+
+namespace poselift::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::string labels;
+  std::string layout = "auto";
+  std::string dictionary;
+  std::string camera;
+  std::string method = "poselift";
+  std::string out = ".";
+  std::string truth;
+  double fps = 30.0;
+  unsigned long seed = 1;
+};
+
+// The time between frames: from their times where they have them.
+double FrameTime_s(const Labels& labels, double fps) {
+  const auto& frames = labels.frames;
+  const bool timed = frames.size() > 1 && frames.front().time_s && frames.back().time_s &&
+                     *frames.back().time_s > *frames.front().time_s;
+  if (!timed) return 1.0 / fps;
+  return (*frames.back().time_s - *frames.front().time_s) / static_cast<double>(frames.size() - 1);
+}
+
+void WriteResults(const LiftedLabels& lifted, const Labels& labels, const Skeleton& skeleton,
+                  const Options& options) {
+  const fs::path out = options.out;
+  WritePosesJson(lifted.poses, out / "poses.json");
+  WriteAnglesCsv(lifted.poses, out / "angles.csv");
+  const Motion motion = ToMotion(lifted, skeleton, FrameTime_s(labels, options.fps));
+  if (motion.frames.empty()) return;
+  WriteMotion(motion, out / "poses.bvh");
+  WriteMotion(motion, out / "poses.amc");
+}
+
+void WriteAllPictures(const LiftedLabels& lifted, const LiftInputs& inputs, const fs::path& out) {
+  const Layout& layout = *FindLayout(inputs.labels.layout);
+  Progress progress("draw", static_cast<int64_t>(inputs.images.size()), "pictures");
+  for (size_t f = 0; f < inputs.images.size(); ++f) {
+    if (!inputs.images[f].empty())
+      WritePictures(inputs.images[f], inputs.labels.frames[f], layout, lifted.results[f], out);
+    progress.Advance(static_cast<double>(f + 1) / static_cast<double>(inputs.images.size()));
+  }
+}
+
+// One line a person; of many frames only the sum. Returns how many were lifted.
+int Report(const LiftedLabels& lifted) {
+  constexpr size_t kListed = 20;
+  int people = 0;
+  int usable = 0;
+  for (size_t f = 0; f < lifted.results.size(); ++f)
+    for (size_t p = 0; p < lifted.results[f].size(); ++p) {
+      const LiftResult& result = lifted.results[f][p];
+      ++people;
+      usable += result.IsUsable() ? 1 : 0;
+      if (lifted.results.size() > kListed && result.IsUsable()) continue;
+      const std::string& image = lifted.poses.frames[f].image;
+      fmt::print("{}, person {}: {}\n", image.empty() ? fmt::format("frame {}", f) : image,
+                 lifted.poses.frames[f].people[p].id, result.BriefReport());
+    }
+  fmt::print("lifted {} of {} people in {} frames\n", usable, people, lifted.results.size());
+  return usable;
+}
+
+int Lift(const Options& options) {
+  const LiftInputs inputs = GatherInputs(options.inputs, options.labels, options.layout);
+  std::optional<Camera> camera;
+  if (!options.camera.empty()) camera = ReadCameraYaml(options.camera);
+  const Dictionary dictionary = ReadDictionary(
+      options.dictionary.empty() ? DefaultDictionaryPath() : fs::path(options.dictionary));
+  const PhotoLifter lifter(dictionary, FindMethod(options.method));
+  fs::create_directories(options.out);
+
+  Progress progress("lift", static_cast<int64_t>(inputs.labels.frames.size()), "frames");
+  const LiftedLabels lifted = LiftLabels(lifter, inputs.labels, camera, progress.Callback());
+  WriteResults(lifted, inputs.labels, dictionary.skeleton, options);
+  WriteAllPictures(lifted, inputs, options.out);
+  const int usable = Report(lifted);
+  if (!options.truth.empty()) PrintErrorAgainstTruth(lifted.poses, options.truth);
+  fmt::print("results in {}\n", options.out);
+  return usable > 0 ? kDone : kFailed;
+}
+
+}  // namespace
+
+CLI::App* AddLift(CLI::App* app, Run* run) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app->add_subcommand("lift", "From labelled pictures to 3D poses with joint angles");
+  command->footer(
+      "Writes poses.json, poses.bvh, poses.amc with poses.asf, angles.csv and, for each picture,\n"
+      "NAME.overlay.png and NAME.view.png.\n"
+      "Example:\n  poselift lift skier.jpg --labels skier.coco.json --out out/");
+  command->add_option("INPUT", options->inputs,
+                      "Pictures or folders of pictures; none: all frames of the labels file");
+  command->add_option("--labels", options->labels,
+                      "Labels of any format (default: NAME.labels.json beside each picture)");
+  command->add_option("--layout", options->layout, "Landmarks of the labels, or auto")
+      ->capture_default_str();
+  command->add_option("--dictionary", options->dictionary, "Default: the one that ships");
+  command->add_option("--camera", options->camera,
+                      "Camera file (YAML): its lens distortion is taken out of the labels");
+  command->add_option("--method", options->method, "How to lift")
+      ->check(CLI::IsMember(MethodNames()))
+      ->capture_default_str();
+  command->add_option("--out", options->out, "Folder for the results; made when missing")
+      ->capture_default_str();
+  command->add_option("--fps", options->fps, "Of frames without times")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--truth", options->truth, "True joints of the frames: prints the error");
+  command->add_option("--seed", options->seed, "Accepted by every command; lifting draws nothing");
+  command->callback([options] {
+    if (options->inputs.empty() && options->labels.empty())
+      throw CLI::RequiredError("INPUT or --labels");
+  });
+  *run = [options] { return Lift(*options); };
+  return command;
+}
+
+}  // namespace poselift::cli

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "ui/cli/lift_pictures.h"
+
+#include <fmt/format.h>
+
+#include "src/draw/overlay.h"
+#include "src/draw/pose_view.h"
+#include "src/io/image.h"
+
+namespace poselift::cli {
+namespace {
+
+OverlayPerson ToOverlay(const PersonLabels& labels, const Layout& layout,
+                        const LiftResult& result) {
+  OverlayPerson person;
+  const LiftedPose* lifted = result.IsUsable() ? &result.poses.front() : nullptr;
+  if (lifted) {
+    person.joints_in_px.resize(3, kNumJoints);
+    person.joints_in_px << lifted->camera.Project(lifted->joints_in_cam_m),
+        lifted->camera.scale_px_per_m * lifted->joints_in_cam_m.row(2);
+    person.reprojection_rms_px = lifted->reprojection_rms_px;
+  }
+  for (const LandmarkLabel& label : labels.landmarks) {
+    OverlayLabel& drawn = person.labels.emplace_back();
+    drawn.name = label.name;
+    drawn.x_px = label.x_px;
+    drawn.state = label.state;
+    const auto row = layout.Find(label.name);
+    if (!lifted || !row || layout.landmarks[*row].parts.empty()) continue;
+    Eigen::Vector2d reprojected = Eigen::Vector2d::Zero();
+    for (const auto& [joint, weight] : layout.landmarks[*row].parts)
+      reprojected += weight * person.joints_in_px.col(joint).head<2>();
+    drawn.reprojected_px = reprojected;
+  }
+  return person;
+}
+
+}  // namespace
+
+void WritePictures(const std::filesystem::path& image, const FrameLabels& frame,
+                   const Layout& layout, const std::vector<LiftResult>& results,
+                   const std::filesystem::path& out_dir) {
+  OverlayInput overlay{frame.width_px, frame.height_px, {}};
+  for (size_t p = 0; p < frame.people.size(); ++p)
+    overlay.people.push_back(ToOverlay(frame.people[p], layout, results[p]));
+  const std::string name = image.stem();
+  WritePng(out_dir / (name + ".overlay.png"), DrawOverlay(ReadImage(image), overlay));
+  for (const LiftResult& result : results) {
+    if (!result.IsUsable()) continue;
+    PoseViewInput view{.joints_in_cam_m = result.poses.front().joints_in_cam_m,
+                       .title = fmt::format("{}   {}", name, result.BriefReport())};
+    for (size_t i = 1; i < result.poses.size(); ++i)
+      view.alternatives_in_cam_m.push_back(result.poses[i].joints_in_cam_m);
+    WritePng(out_dir / (name + ".view.png"), DrawPoseView(view));
+    break;
+  }
+}
+
+}  // namespace poselift::cli
