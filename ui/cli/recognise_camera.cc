@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the poselift authors
+#include <Eigen/Geometry>
 #include <cmath>
 #include <nlohmann/json.hpp>
 

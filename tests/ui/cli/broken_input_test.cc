@@ -46,7 +46,7 @@ const std::string kBvh =
 TEST(BrokenInput, BvhIsRefusedByInfoAndConvert) {
   ExpectRefusals(
       "a.bvh", kBvh, {"info {}", "convert {} out.bvh", "convert {} out.amc"},
-      {{"truncated in the tree", kBvh.substr(0, 40), ":4"},
+      {{"truncated in the tree", kBvh.substr(0, 40), ":5"},
        {"truncated in a frame", kBvh.substr(0, kBvh.size() - 3), ":15"},
        {"NaN", Replaced(kBvh, "4 5 6", "4 nan 6"), ":15"},
        {"1e999", Replaced(kBvh, "0 10 0", "0 1e999 0"), ":8"},
@@ -72,7 +72,7 @@ MotionFiles WriteMotionFiles() {
 }
 
 const std::vector<std::string> kMotionCommands = {
-    "info 01_01.amc", "convert 01_01.amc out.bvh",
+    "info {}", "convert {} out.bvh",
     "train --mocap . --out out.pldict --json out.json --atoms 4 --sparsity 2 --subsets 1 "
     "--iterations 1"};
 
@@ -90,14 +90,14 @@ TEST(BrokenInput, AmcIsRefusedByInfoConvertAndTrain) {
 
 TEST(BrokenInput, AsfIsRefusedByInfoConvertAndTrain) {
   const std::string asf = WriteMotionFiles().asf;
-  std::vector<std::string> commands = kMotionCommands;
-  commands.emplace_back("info 01.asf");
-  commands.emplace_back("convert 01_01.amc out.bvh --skeleton 01.asf");
+  const std::vector<std::string> commands = {"info {}", "convert {} out.bvh", "info 01_01.amc",
+                                             "convert 01_01.amc out.bvh --skeleton {}",
+                                             kMotionCommands.back()};
   ExpectRefusals("01.asf", asf, commands,
                  {{"truncated", asf.substr(0, asf.size() / 2), ""},
                   {"NaN", Replaced(asf, "direction ", "direction nan "), ":"},
                   {"1e999", Replaced(asf, "direction ", "direction 1e999 "), ":"},
-                  {"unit of zero", Replaced(asf, "length ", "length 0"), ":"},
+                  {"unit of zero", Replaced(asf, "length ", "length -"), ":"},
                   {"unknown bone", Replaced(asf, "name ltibia", "name tail"), ":"}});
 }
 
@@ -200,16 +200,21 @@ TEST(BrokenInput, FoldersWithoutWhatIsWantedAreRefused) {
   ExpectRefusal("train --mocap nothing --out out.pldict", "nothing");  // no ASF
 }
 
-// Their dofs cannot stand in one table.
-TEST(BrokenInput, TrainRefusesSkeletonsWithOtherDofs) {
-  const MotionFiles files = WriteMotionFiles();
-  auto rng = TestRng();
-  Motion other = testing::RandomMotion(testing::CmuLikeSkeleton(), 3, &rng);
-  other.skeleton.bones[*other.skeleton.FindBone("ltibia")].dofs.clear();
-  for (SkeletonPose& pose : other.frames) pose = SkeletonPose::Rest(other.skeleton);
-  WriteAsf(other.skeleton, ScratchDir() / "02.asf");
-  WriteAmc(other, ScratchDir() / "02_01.amc");
-  ExpectRefusal(kMotionCommands.back(), "02.asf");
+// Their frames cannot stand in one table.
+TEST(BrokenInput, TrainRefusesSkeletonsThatDoNotFit) {
+  const std::string asf = WriteMotionFiles().asf;
+  const std::string train = kMotionCommands.back();
+  WriteScratch("02.asf", std::string(testing::kMadeUpAsf));
+  WriteScratch("02_01.amc", "1\nroot 0 0 0 0 0 0\nltibia 1\n");
+  ExpectRefusal(train, "02.asf: made_up: found no bone");
+
+  Skeleton stiff = testing::CmuLikeSkeleton();
+  stiff.bones[*stiff.FindBone("ltibia")].dofs.clear();
+  WriteAsf(stiff, ScratchDir() / "02.asf");
+  WriteAmc({stiff, kCmuFrameTime_s, {SkeletonPose::Rest(stiff)}}, ScratchDir() / "02_01.amc");
+  ExpectRefusal(train, "02.asf: found other degrees of freedom at the bone ltibia than in");
+  fs::remove(ScratchDir() / "01_01.amc");
+  ExpectRefusal(train, "02.asf: found other degrees of freedom at the bone ltibia than at rtibia");
 }
 
 TEST(BrokenInput, WrongUsageIsToldFromBrokenFiles) {
