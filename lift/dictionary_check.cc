@@ -76,7 +76,7 @@ std::string SkeletonFlaw(const Skeleton& skeleton) {
   if (skeleton.bones.size() != kNumJoints)
     return fmt::format("the skeleton has {} bones, wanted {}", skeleton.bones.size(), kNumJoints);
   for (int b = 0; b < kNumJoints; ++b)
-    if (const std::string flaw = BoneFlaw(b, skeleton.bones[b]); !flaw.empty()) return flaw;
+    if (std::string flaw = BoneFlaw(b, skeleton.bones[b]); !flaw.empty()) return flaw;
   return "";
 }
 

@@ -165,11 +165,11 @@ class ArrayReader {
 
   bool Has(std::string_view name) const { return Find(name) != table_.end(); }
 
-  // cols: 0 for any number.
+  // cols: 0 for any number from 1.
   Eigen::MatrixXd Read(std::string_view name, Eigen::Index rows, Eigen::Index cols) const {
     const auto array = Find(name);
     if (array == table_.end()) throw InputError(file_, fmt::format("has no array {}", name));
-    if (array->rows != rows || (cols != 0 && array->cols != cols))
+    if (array->rows != rows || array->cols == 0 || (cols != 0 && array->cols != cols))
       throw InputError(file_,
                        fmt::format("has an array {} of {} x {}, wanted {} x {}", name, array->rows,
                                    array->cols, rows, cols == 0 ? "any" : std::to_string(cols)));

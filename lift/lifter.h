@@ -25,14 +25,14 @@ namespace poselift {
 // them, the rotation (P1b) and the scale, from several views. prior_weight = 0
 // is the paper's problem; x and s then share one factor.
 struct LifterOptions {
-  OmpOptions omp{.max_atoms = 12};
+  OmpOptions omp{.max_atoms = 20};
   RotationOptions rotation{.prior_weight = {2.5, 0.0, 2.5}};  // 23 degrees of tilt are one sigma
   ViewSearchOptions views;
   double prior_weight = 1.0;
   int max_alternations = 15;
   double min_improvement = 1e-3;  // relative, of the objective
   // After this many alternations only the best finish.
-  int trial_alternations = 3;
+  int trial_alternations = 2;
   int num_finishing = 4;
   // Two solutions are one when their joints, root-centred in cam, are closer
   // than this (RMS).

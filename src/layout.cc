@@ -7,40 +7,51 @@ namespace {
 
 using namespace joint;  // NOLINT(google-build-using-namespace): the tables below
 
-// Heads: the crown, head_top, is the end of the CMU head bone, about a hand's
-// breadth below the real crown's hair; the ears sit beside its middle.
-const std::vector<Landmark::Part> kMidHead = {{kUpperNeck, 0.4}, {kHeadTop, 0.6}};
-// Wrists: CMU splits the forearm in two bones and its wrist joint, the end of
-// the first, lies two thirds down the forearm. The wrist that people label is
-// the end of the second, the joint "hand".
-constexpr double kHalfHead_m = 0.07;  // an ear lies this far beside the middle of the head
-constexpr double kToe_m = 0.03;
-constexpr double kMidHip_m = 0.02;
+// People label anatomy; the joints of the CMU skeleton lie elsewhere in places.
+// Measured on the standard skeleton against a body of its size (1.75 m):
+//  - its wrist joint is the end of the first of two forearm bones, two thirds
+//    down; the wrist is the end of the second, the joint "hand";
+//  - its thorax ends 5 cm below the shoulder joints; the base of the neck,
+//    between the collar bones, lies 3 cm above them, on the lowerneck bone;
+//  - its head bone ends in the middle of the head, 9 cm below the crown, as long
+//    again as the bone; the ears are a little below its end, to either side.
+const std::vector<Landmark::Part> kNeckBase = {{kThorax, 0.2}, {kLowerNeck, 0.8}};
+const std::vector<Landmark::Part> kCrown = {{kUpperNeck, -0.9}, {kHeadTop, 1.9}};
+// An ear stands out along the line of the shoulders, unless the head is turned.
+constexpr double kEarOut = 0.19;  // of the shoulders' distance
+constexpr double kEarSigma_m = 0.05;
+constexpr double kToeSigma_m = 0.03;
+constexpr double kMiddleSigma_m = 0.02;  // of a point between two joints
 
 Landmark Joint(std::string_view name, int joint) { return {name, {{joint, 1.0}}}; }
 Landmark LeftOut(std::string_view name) { return {name, {}}; }
-Landmark Ear(std::string_view name) { return {name, kMidHead, kHalfHead_m}; }
-Landmark Neck(std::string_view name) {
-  return {name, {{kLeftShoulder, 0.5}, {kRightShoulder, 0.5}}, kMidHip_m};
+Landmark Ear(std::string_view name, double out) {
+  return {name,
+          {{kUpperNeck, 0.3}, {kHeadTop, 0.7}, {kLeftShoulder, out}, {kRightShoulder, -out}},
+          kEarSigma_m};
 }
-Landmark Foot(std::string_view name, int foot) { return {name, {{foot, 1.0}}, kToe_m}; }
+Landmark Neck(std::string_view name) {
+  return {name, {{kLeftShoulder, 0.5}, {kRightShoulder, 0.5}}, kMiddleSigma_m};
+}
+Landmark Foot(std::string_view name, int foot) { return {name, {{foot, 1.0}}, kToeSigma_m}; }
 
 Layout Body15() {
-  return {"body15",
-          {Joint("pelvis", kPelvis), Joint("neck", kThorax), Joint("head_top", kHeadTop),
-           Joint("left_shoulder", kLeftShoulder), Joint("right_shoulder", kRightShoulder),
-           Joint("left_elbow", kLeftElbow), Joint("right_elbow", kRightElbow),
-           Joint("left_wrist", kLeftHand), Joint("right_wrist", kRightHand),
-           Joint("left_hip", kLeftHip), Joint("right_hip", kRightHip),
-           Joint("left_knee", kLeftKnee), Joint("right_knee", kRightKnee),
-           Joint("left_ankle", kLeftAnkle), Joint("right_ankle", kRightAnkle)}};
+  return {
+      "body15",
+      {Joint("pelvis", kPelvis), Landmark{"neck", kNeckBase, kMiddleSigma_m},
+       Landmark{"head_top", kCrown, kMiddleSigma_m}, Joint("left_shoulder", kLeftShoulder),
+       Joint("right_shoulder", kRightShoulder), Joint("left_elbow", kLeftElbow),
+       Joint("right_elbow", kRightElbow), Joint("left_wrist", kLeftHand),
+       Joint("right_wrist", kRightHand), Joint("left_hip", kLeftHip), Joint("right_hip", kRightHip),
+       Joint("left_knee", kLeftKnee), Joint("right_knee", kRightKnee),
+       Joint("left_ankle", kLeftAnkle), Joint("right_ankle", kRightAnkle)}};
 }
 
 Layout Coco17() {
   return {
       "coco17",
-      {LeftOut("nose"), LeftOut("left_eye"), LeftOut("right_eye"), Ear("left_ear"),
-       Ear("right_ear"), Joint("left_shoulder", kLeftShoulder),
+      {LeftOut("nose"), LeftOut("left_eye"), LeftOut("right_eye"), Ear("left_ear", kEarOut),
+       Ear("right_ear", -kEarOut), Joint("left_shoulder", kLeftShoulder),
        Joint("right_shoulder", kRightShoulder), Joint("left_elbow", kLeftElbow),
        Joint("right_elbow", kRightElbow), Joint("left_wrist", kLeftHand),
        Joint("right_wrist", kRightHand), Joint("left_hip", kLeftHip), Joint("right_hip", kRightHip),
@@ -58,7 +69,7 @@ Layout OpenPose25() {
            Joint("left_shoulder", kLeftShoulder),
            Joint("left_elbow", kLeftElbow),
            Joint("left_wrist", kLeftHand),
-           Landmark{"mid_hip", {{kLeftHip, 0.5}, {kRightHip, 0.5}}, kMidHip_m},
+           Landmark{"mid_hip", {{kLeftHip, 0.5}, {kRightHip, 0.5}}, kMiddleSigma_m},
            Joint("right_hip", kRightHip),
            Joint("right_knee", kRightKnee),
            Joint("right_ankle", kRightAnkle),
@@ -67,8 +78,8 @@ Layout OpenPose25() {
            Joint("left_ankle", kLeftAnkle),
            LeftOut("right_eye"),
            LeftOut("left_eye"),
-           Ear("right_ear"),
-           Ear("left_ear"),
+           Ear("right_ear", -kEarOut),
+           Ear("left_ear", kEarOut),
            Foot("left_big_toe", kLeftFoot),
            Foot("left_small_toe", kLeftFoot),
            LeftOut("left_heel"),
@@ -78,15 +89,15 @@ Layout OpenPose25() {
 }
 
 Layout OpenPose18() {
-  return {
-      "openpose18",
-      {LeftOut("nose"), Neck("neck"), Joint("right_shoulder", kRightShoulder),
-       Joint("right_elbow", kRightElbow), Joint("right_wrist", kRightHand),
-       Joint("left_shoulder", kLeftShoulder), Joint("left_elbow", kLeftElbow),
-       Joint("left_wrist", kLeftHand), Joint("right_hip", kRightHip),
-       Joint("right_knee", kRightKnee), Joint("right_ankle", kRightAnkle),
-       Joint("left_hip", kLeftHip), Joint("left_knee", kLeftKnee), Joint("left_ankle", kLeftAnkle),
-       LeftOut("right_eye"), LeftOut("left_eye"), Ear("right_ear"), Ear("left_ear")}};
+  return {"openpose18",
+          {LeftOut("nose"), Neck("neck"), Joint("right_shoulder", kRightShoulder),
+           Joint("right_elbow", kRightElbow), Joint("right_wrist", kRightHand),
+           Joint("left_shoulder", kLeftShoulder), Joint("left_elbow", kLeftElbow),
+           Joint("left_wrist", kLeftHand), Joint("right_hip", kRightHip),
+           Joint("right_knee", kRightKnee), Joint("right_ankle", kRightAnkle),
+           Joint("left_hip", kLeftHip), Joint("left_knee", kLeftKnee),
+           Joint("left_ankle", kLeftAnkle), LeftOut("right_eye"), LeftOut("left_eye"),
+           Ear("right_ear", -kEarOut), Ear("left_ear", kEarOut)}};
 }
 
 Layout Joints23() {

@@ -39,14 +39,14 @@ constexpr size_t kHeaderBytesAt = 12;
 constexpr size_t kFileBytesAt = 20;
 constexpr size_t kHeaderAt = 28;
 constexpr size_t kChecksumBytes = 4;
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Dictionary WithPriorAndRecord(int num_atoms) {
   auto rng = TestRng();
   Dictionary dictionary = RandomDictionary(num_atoms, &rng);
   dictionary.prior = LearnPosePrior(RandomDictionary(200, &rng).atoms);
-  dictionary.skeleton.bones[2].dofs[0].lower = -kInf;
-  dictionary.skeleton.bones[2].dofs[0].upper = kInf;
+  dictionary.skeleton.bones[2].dofs[0].lower = -kInfinity;
+  dictionary.skeleton.bones[2].dofs[0].upper = kInfinity;
   dictionary.atoms(4, 0) = -0.0;
   dictionary.atoms.col(0).normalize();
   dictionary.record = {.sources = {"a.amc", "Z\xC3\xBCrich \"1\".bvh"},
@@ -294,7 +294,7 @@ TEST(DictionaryFile, DoesNotBelieveItsArrayTable) {
 
 TEST(DictionaryFile, WantsFiniteAtomsOfUnitNorm) {
   EXPECT_THAT(RefusalWithAtomNumber(7.0), HasSubstr("atom 0 has norm 7"));
-  for (const double value : {std::numeric_limits<double>::quiet_NaN(), kInf, 1e300})
+  for (const double value : {std::numeric_limits<double>::quiet_NaN(), kInfinity, 1e300})
     EXPECT_THAT(RefusalWithAtomNumber(value), HasSubstr("atom 0 has norm")) << value;
 }
 
@@ -361,10 +361,10 @@ TEST(DictionaryFile, IsNotWrittenWithAFlaw) {
   EXPECT_THROW(WriteDictionary(flawed, path), std::invalid_argument);
   flawed = sound;
   flawed.prior.mean_m.setZero(69);
-  flawed.prior.whitening.setConstant(69, 69, kInf);
+  flawed.prior.whitening.setConstant(69, 69, kInfinity);
   EXPECT_THROW(WriteDictionary(flawed, path), std::invalid_argument);
   flawed = sound;
-  flawed.skeleton.bones[5].dofs = {{Dof::Kind::kRx, kInf, kInf}};
+  flawed.skeleton.bones[5].dofs = {{Dof::Kind::kRx, kInfinity, kInfinity}};
   EXPECT_THROW(WriteDictionary(flawed, path), std::invalid_argument);
   flawed = sound;
   flawed.record.command.assign(5'000'000, 'a');
