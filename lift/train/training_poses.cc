@@ -27,6 +27,19 @@ std::vector<int> DofsOfTrimmed(const Skeleton& whole, const Skeleton& trimmed) {
   return places;
 }
 
+std::vector<fs::path> FindAmcFiles(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  fs::path last = folder;  // the iterator does not say which folder it cannot enter
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    last = entry->path();
+    if (entry->is_regular_file() && last.extension() == ".amc") files.push_back(last);
+  }
+  if (error) throw InputError(last, "cannot list it: " + error.message());
+  return files;
+}
+
 fs::path AsfOf(const fs::path& amc, const fs::path& fallback) {
   if (fallback.empty()) return FindAsfOf(amc);
   try {
@@ -50,6 +63,32 @@ Eigen::MatrixXd SideBySide(std::vector<Eigen::MatrixXd>* parts) {
   return joined;
 }
 
+bool SameDofs(const Bone& a, const Bone& b) {
+  return std::equal(a.dofs.begin(), a.dofs.end(), b.dofs.begin(), b.dofs.end(),
+                    [](const Dof& x, const Dof& y) { return x.kind == y.kind; });
+}
+
+// Frames stand side by side in one table, and left lends its limits to right.
+void RequireSameDofs(const Skeleton& trimmed, const Skeleton& first, const fs::path& file) {
+  for (int j = 0; j < kNumJoints; ++j) {
+    const Bone& bone = trimmed.bones[j];
+    if (!SameDofs(bone, first.bones[j]))
+      throw InputError(file, "found other degrees of freedom at the bone " + bone.name +
+                                 " than in the first skeleton, wanted the same in all");
+    if (const Bone& mirror = trimmed.bones[Joints()[j].mirror]; !SameDofs(bone, mirror))
+      throw InputError(file, "found other degrees of freedom at the bone " + bone.name +
+                                 " than at " + mirror.name + ", wanted the same left and right");
+  }
+}
+
+Skeleton Trimmed(const AsfSkeleton& asf, const fs::path& file) {
+  try {
+    return TrimToJoints(asf.skeleton);
+  } catch (const InputError& error) {  // knows no file
+    throw InputError(file, error.what());
+  }
+}
+
 // Mirroring a rotation in the plane x = 0 turns it about y and z the other way.
 double MirrorSign(const Dof& dof) { return dof.Axis() == 0 ? 1.0 : -1.0; }
 
@@ -59,13 +98,12 @@ std::vector<MotionSource> FindMotions(const fs::path& folder, const MotionChoice
   if (!fs::is_directory(folder))
     throw InputError(folder, "found no such folder, wanted one with .amc and .asf files");
   std::vector<MotionSource> sources;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file() || entry.path().extension() != ".amc") continue;
-    const std::string subject = entry.path().parent_path().filename();
+  for (const fs::path& amc : FindAmcFiles(folder)) {
+    const std::string subject = amc.parent_path().filename();
     const auto& subjects = choice.subjects;
     const bool wanted =
         subjects.empty() || std::find(subjects.begin(), subjects.end(), subject) != subjects.end();
-    if (wanted) sources.push_back({entry.path(), {}, subject});
+    if (wanted) sources.push_back({amc, {}, subject});
   }
   std::sort(sources.begin(), sources.end(),
             [](const MotionSource& a, const MotionSource& b) { return a.amc < b.amc; });
@@ -150,7 +188,10 @@ TrainingPoses LoadPoses(const std::vector<MotionSource>& sources, const LoadOpti
   for (const MotionSource& source : sources)
     if (!asfs.contains(source.asf)) asfs[source.asf] = ReadAsfSkeleton(source.asf);
   std::vector<Skeleton> trimmed;
-  for (const auto& [path, asf] : asfs) trimmed.push_back(TrimToJoints(asf.skeleton));
+  for (const auto& [path, asf] : asfs) {
+    trimmed.push_back(Trimmed(asf, path));
+    RequireSameDofs(trimmed.back(), trimmed.front(), path);
+  }
 
   TrainingPoses result;
   result.standard = MeanSkeleton(trimmed);

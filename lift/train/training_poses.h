@@ -65,7 +65,9 @@ struct LoadOptions {
   int stride = 1;                // takes every stride-th frame
 };
 
-// Reads all motions and puts their poses side by side.
+// Reads all motions and puts their poses side by side. Throws InputError for a
+// file that cannot be read, and for skeletons that are not CMU's or whose degrees
+// of freedom differ.
 TrainingPoses LoadPoses(const std::vector<MotionSource>& sources, const LoadOptions& options,
                         const ProgressFn& progress);
 

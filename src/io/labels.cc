@@ -74,6 +74,18 @@ size_t EditDistance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+// What stands in a file that has no labels: its kind, and an object's first keys.
+std::string Contents(const JsonValue& root) {
+  if (root.Is(JsonValue::Kind::kArray)) return "a list";
+  if (!root.Is(JsonValue::Kind::kObject)) return "a single value";
+  constexpr size_t kMostKeys = 5;
+  const std::vector<std::string>& keys = root.Keys();
+  std::string text = keys.empty() ? "an empty object" : "an object with ";
+  for (size_t i = 0; i < std::min(keys.size(), kMostKeys); ++i)
+    text += (i > 0 ? ", " : "") + Quoted(keys[i]);
+  return text + (keys.size() > kMostKeys ? ", ..." : "");
+}
+
 }  // namespace
 
 Labels ReadLabels(const std::filesystem::path& path, std::string_view layout_name) {
@@ -88,9 +100,9 @@ Labels ReadLabels(const std::filesystem::path& path, std::string_view layout_nam
     FrameLabels frame = ReadOpenPoseFrame(root, &layout);
     return OpenPoseLabels({std::move(frame)}, layout, path.string());
   }
-  throw root.Error(
-      "found JSON without labels, wanted poselift-labels (\"format\"), COCO keypoints "
-      "(\"annotations\", or a list of results) or OpenPose (\"people\")");
+  throw root.Error("found JSON without labels (" + Contents(root) +
+                   "), wanted poselift-labels (\"format\"), COCO keypoints (\"annotations\", or a "
+                   "list of results) or OpenPose (\"people\")");
 }
 
 LandmarkLabel LandmarkFromScore(std::string_view name, const Eigen::Vector2d& x_px, double score) {

@@ -201,7 +201,8 @@ TEST(NativeLabels, RefuseTwoPeopleWithOneId) {
 TEST(Labels, RefuseWhatIsNoLabelFile) {
   EXPECT_THAT(Complaint(""), HasSubstr("labels.json:1: no valid JSON"));
   EXPECT_THAT(Complaint("{}"), HasSubstr("labels.json:1: found JSON without labels"));
-  EXPECT_THAT(Complaint("3"), HasSubstr("found JSON without labels"));
+  EXPECT_THAT(Complaint("3"), HasSubstr("found JSON without labels (a single value)"));
+  EXPECT_THAT(Complaint(R"({"a": 1, "b": 2})"), HasSubstr(R"((an object with "a", "b"))"));
   EXPECT_THAT(Complaint("[]"), HasSubstr("found nothing with \"keypoints\""));
   EXPECT_THAT(Complaint("[1]"), HasSubstr("[0]: found 1, wanted an object"));
   EXPECT_THAT(Complaint("{\"people\": \"\xff\"}"), HasSubstr("no valid JSON"));

@@ -13,6 +13,7 @@
 #include "src/io/text_scanner.h"
 #include "src/units.h"
 #include "ui/cli/command.h"
+#include "ui/cli/frame_rate.h"
 
 namespace poselift::cli {
 namespace {
@@ -93,7 +94,7 @@ CLI::App* AddConvert(CLI::App* app, Run* run) {
       ->add_option(
           "--fps", options->fps,
           "Frame rate of IN instead of what it says [AMC: 120]; no frame is added or dropped")
-      ->check(CLI::Range(1e-3, 1e6));
+      ->check(IsFrameRate());
   command->footer("Example: poselift convert 02_01.amc walk.bvh --units m");
   *run = [options] { return Convert(*options); };
   return command;

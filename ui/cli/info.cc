@@ -4,7 +4,9 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -32,14 +34,21 @@ std::string Text(const Json& value, int indent = -1) {
 }
 
 std::string ReadHead(const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path)) throw InputError(path.string(), "found no such file");
-  if (std::filesystem::is_directory(path))
-    throw InputError(path.string(), "found a directory, wanted a file");
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found)
+    throw InputError(path.string(), "found no such file");
+  if (error) throw InputError(path.string(), "cannot read it: " + error.message());
+  if (std::filesystem::is_directory(status)) return {};
+  if (!std::filesystem::is_regular_file(status))  // a pipe may never end
+    throw InputError(path.string(), "is no ordinary file; wanted one, or a folder of OpenPose's");
   constexpr std::streamsize kHeadBytes = 4096;
   std::string head(kHeadBytes, '\0');
   std::ifstream file(path, std::ios::binary);
+  if (!file.is_open())
+    throw InputError(path.string(), std::string("cannot open it: ") + std::strerror(errno));
   file.read(head.data(), kHeadBytes);
-  if (file.bad() || !file.is_open()) throw InputError(path.string(), "cannot read it");
+  if (file.bad()) throw InputError(path.string(), "cannot read it");
   head.resize(static_cast<size_t>(file.gcount()));
   return head;
 }
@@ -64,7 +73,7 @@ void Print(const Json& facts) {
     if (name == "file")
       std::printf("%s\n", text.c_str());
     else
-      std::printf("  %-16s %s\n", name.c_str(), text.c_str());
+      std::printf("  %-20s %s\n", name.c_str(), text.c_str());
   }
 }
 
@@ -93,7 +102,7 @@ CLI::App* AddInfo(CLI::App* app, Run* run) {
   CLI::App* command = app->add_subcommand("info", "Say what is in a file");
   command->add_option("FILE", options->files, "Files of any kind that poselift reads")->required();
   command->add_option("--json", options->json, "Write the same facts to this file");
-  command->footer("Example: poselift info walk.bvh 02_01.amc --json facts.json");
+  command->footer("Example: poselift info walk.bvh labels.json photo.jpg --json facts.json");
   *run = [options] { return Info(*options); };
   return command;
 }

@@ -16,9 +16,11 @@
 #include "lift/lift_labels.h"
 #include "src/io/angles_csv.h"
 #include "src/io/camera_yaml.h"
+#include "src/io/image.h"
 #include "src/io/motion_file.h"
 #include "src/io/poses_json.h"
 #include "ui/cli/command.h"
+#include "ui/cli/frame_rate.h"
 #include "ui/cli/lift_inputs.h"
 #include "ui/cli/lift_pictures.h"
 #include "ui/cli/methods.h"
@@ -73,6 +75,12 @@ void WriteAllPictures(const LiftedLabels& lifted, const LiftInputs& inputs, cons
   }
 }
 
+// Nothing is written when a picture turns out to be broken at the end.
+void CheckPictures(const LiftInputs& inputs) {
+  for (const fs::path& image : inputs.images)
+    if (!image.empty()) ReadImage(image);
+}
+
 // One line a person; of many frames only the sum. Returns how many were lifted.
 int Report(const LiftedLabels& lifted) {
   constexpr size_t kListed = 20;
@@ -98,6 +106,9 @@ int Lift(const Options& options) {
   if (!options.camera.empty()) camera = ReadCameraYaml(options.camera);
   const Dictionary dictionary = ReadDictionary(
       options.dictionary.empty() ? DefaultDictionaryPath() : fs::path(options.dictionary));
+  std::optional<Truth> truth;
+  if (!options.truth.empty()) truth = ReadTruth(options.truth);
+  CheckPictures(inputs);
   const PhotoLifter lifter(dictionary, FindMethod(options.method));
   fs::create_directories(options.out);
 
@@ -106,7 +117,7 @@ int Lift(const Options& options) {
   WriteResults(lifted, inputs.labels, dictionary.skeleton, options);
   WriteAllPictures(lifted, inputs, options.out);
   const int usable = Report(lifted);
-  if (!options.truth.empty()) PrintErrorAgainstTruth(lifted.poses, options.truth);
+  if (truth) PrintErrorAgainstTruth(lifted.poses, *truth);
   fmt::print("results in {}\n", options.out);
   return usable > 0 ? kDone : kFailed;
 }
@@ -136,7 +147,7 @@ CLI::App* AddLift(CLI::App* app, Run* run) {
   command->add_option("--out", options->out, "Folder for the results; made when missing")
       ->capture_default_str();
   command->add_option("--fps", options->fps, "Of frames without times")
-      ->check(CLI::PositiveNumber)
+      ->check(IsFrameRate())
       ->capture_default_str();
   command->add_option("--truth", options->truth, "True joints of the frames: prints the error");
   command->add_option("--seed", options->seed, "Accepted by every command; lifting draws nothing");

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 
 #include "src/input_error.h"
 #include "ui/cli/command.h"
@@ -26,6 +27,11 @@ int RunGuarded(const Run& run) {
     return run();
   } catch (const poselift::InputError& error) {
     std::fprintf(stderr, "poselift: %s\n", error.what());
+    return poselift::cli::kUnreadableInput;
+  } catch (const std::filesystem::filesystem_error& error) {
+    // A folder without permission, or a file where a folder is wanted.
+    std::fprintf(stderr, "poselift: %s: %s\n", error.path1().c_str(),
+                 error.code().message().c_str());
     return poselift::cli::kUnreadableInput;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "poselift: %s\n", error.what());

@@ -18,10 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool HasEnding(const std::filesystem::path& path, std::string_view ending) {
-  return EqualsIgnoringCase(path.extension().string(), ending);
-}
-
 // Whether one of the first lines begins with the word.
 bool HasLine(std::string_view head, std::string_view word) {
   for (;;) {

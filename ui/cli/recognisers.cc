@@ -5,6 +5,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "src/io/text_scanner.h"
+
 namespace poselift::cli {
 
 std::span<const Recogniser> Recognisers() {
@@ -12,8 +14,17 @@ std::span<const Recogniser> Recognisers() {
       Recogniser{"BVH motion", IsBvh, DescribeBvh},
       Recogniser{"ASF skeleton", IsAsf, DescribeAsf},
       Recogniser{"AMC motion", IsAmc, DescribeAmc},
+      Recogniser{"pose dictionary", IsDictionary, DescribeDictionary},
+      Recogniser{"picture", IsImage, DescribeImage},
+      Recogniser{"camera", IsCamera, DescribeCamera},
+      Recogniser{"lifted poses", IsPoses, DescribePoses},
+      Recogniser{"labels", IsLabels, DescribeLabels},  // of all JSON, so the last
   };
   return kRecognisers;
+}
+
+bool HasEnding(const std::filesystem::path& path, std::string_view ending) {
+  return EqualsIgnoringCase(path.extension().string(), ending);
 }
 
 }  // namespace poselift::cli

@@ -13,7 +13,8 @@ namespace poselift::cli {
 // table of recognisers.cc.
 struct Recogniser {
   std::string_view kind;  // "BVH motion"
-  // By the ending of the name and the first bytes (up to 4 KiB) of the file.
+  // By the ending of the name and the first bytes (up to 4 KiB) of the file;
+  // none of a directory.
   bool (*is_it)(const std::filesystem::path& path, std::string_view head);
   // What is in it, in the order to print; names carry the unit (duration_s).
   // Reads the whole file; throws InputError when it is malformed.
@@ -30,5 +31,24 @@ bool IsAsf(const std::filesystem::path& path, std::string_view head);
 nlohmann::ordered_json DescribeBvh(const std::filesystem::path& path);
 nlohmann::ordered_json DescribeAmc(const std::filesystem::path& path);
 nlohmann::ordered_json DescribeAsf(const std::filesystem::path& path);
+
+bool IsDictionary(const std::filesystem::path& path, std::string_view head);
+nlohmann::ordered_json DescribeDictionary(const std::filesystem::path& path);
+
+bool IsCamera(const std::filesystem::path& path, std::string_view head);
+nlohmann::ordered_json DescribeCamera(const std::filesystem::path& path);
+
+bool IsImage(const std::filesystem::path& path, std::string_view head);
+nlohmann::ordered_json DescribeImage(const std::filesystem::path& path);
+
+bool IsPoses(const std::filesystem::path& path, std::string_view head);
+nlohmann::ordered_json DescribePoses(const std::filesystem::path& path);
+
+// Any JSON, and a directory: the labels' reader knows what is wrong with it.
+bool IsLabels(const std::filesystem::path& path, std::string_view head);
+nlohmann::ordered_json DescribeLabels(const std::filesystem::path& path);
+
+// Whether the name ends so, in upper or lower case: HasEnding("A.BVH", ".bvh").
+bool HasEnding(const std::filesystem::path& path, std::string_view ending);
 
 }  // namespace poselift::cli

@@ -9,37 +9,47 @@
 #include "src/layout.h"
 
 namespace poselift::cli {
+namespace {
 
-void PrintErrorAgainstTruth(const Poses& poses, const std::filesystem::path& truth) {
-  const JsonDocument document(truth);
+// The truth names landmarks of a body: the wrist is the body15 wrist.
+const Layout& TruthLayout() { return *FindLayout("body15"); }
+
+}  // namespace
+
+Truth ReadTruth(const std::filesystem::path& path) {
+  const JsonDocument document(path);
   const JsonValue& joints = document.root().At("joints_in_cam");
+  Truth truth;
+  truth.x_in_cam_m.resize(3, std::ssize(joints.Keys()));
+  for (size_t i = 0; i < joints.Keys().size(); ++i) {
+    const auto row = TruthLayout().Find(joints.Keys()[i]);
+    if (!row) continue;
+    const auto& x = joints.Members()[i].Items();
+    if (x.size() != 3) throw joints.Members()[i].Unwanted("three coordinates");
+    truth.x_in_cam_m.col(std::ssize(truth.landmarks)) << x[0].Number(), x[1].Number(),
+        x[2].Number();
+    truth.landmarks.push_back(*row);
+  }
+  if (truth.landmarks.size() < 4) throw joints.Unwanted("at least four joints of body15");
+  truth.x_in_cam_m.conservativeResize(3, std::ssize(truth.landmarks));
+  return truth;
+}
+
+void PrintErrorAgainstTruth(const Poses& poses, const Truth& truth) {
   if (poses.frames.empty() || poses.frames[0].people.empty() ||
       poses.frames[0].people[0].status != "ok")
     return;
   const Pose3& lifted = poses.frames[0].people[0].joints_in_cam_m;
-
-  // The truth names landmarks of a body: the wrist is the body15 wrist.
-  const Layout& layout = *FindLayout("body15");
-  Pose3 estimate(3, joints.Keys().size()), known(3, joints.Keys().size());
-  Eigen::Index count = 0;
-  for (size_t i = 0; i < joints.Keys().size(); ++i) {
-    const auto row = layout.Find(joints.Keys()[i]);
-    if (!row) continue;
-    const auto& x = joints.Members()[i].Items();
-    if (x.size() != 3) throw joints.Members()[i].Unwanted("three coordinates");
-    known.col(count) << x[0].Number(), x[1].Number(), x[2].Number();
-    estimate.col(count).setZero();
-    for (const auto& [joint, weight] : layout.landmarks[*row].parts)
-      estimate.col(count) += weight * lifted.col(joint);
-    ++count;
-  }
-  if (count < 4) throw joints.Unwanted("at least four joints of body15");
-  const Pose3 a = estimate.leftCols(count);
-  const Pose3 b = known.leftCols(count);
+  Pose3 estimate = Pose3::Zero(3, truth.x_in_cam_m.cols());
+  for (Eigen::Index i = 0; i < estimate.cols(); ++i)
+    for (const auto& [joint, weight] :
+         TruthLayout().landmarks[truth.landmarks[static_cast<size_t>(i)]].parts)
+      estimate.col(i) += weight * lifted.col(joint);
   fmt::print(
       "against the truth, mean of {} joints: {:.0f} mm after similarity alignment (PA), "
       "{:.0f} mm after translation and scale (CAM)\n",
-      count, PaError_mm(a, b), CamError_mm(a, b));
+      estimate.cols(), PaError_mm(estimate, truth.x_in_cam_m),
+      CamError_mm(estimate, truth.x_in_cam_m));
 }
 
 }  // namespace poselift::cli

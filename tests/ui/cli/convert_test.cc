@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the poselift authors
 //
-// The program itself, run on made-up files: convert and info.
+// The program itself, run on made-up files: convert.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
-#include <nlohmann/json.hpp>
+#include <filesystem>
 
 #include "src/io/amc.h"
 #include "src/io/bvh.h"
 #include "src/io/motion_file.h"
 #include "src/io/text_scanner.h"
 #include "tests/support/made_up_asf.h"
+#include "tests/support/run_program.h"
 #include "tests/support/support.h"
 
 namespace poselift {
@@ -22,23 +21,12 @@ namespace {
 using testing::ExpectSamePlaces;
 using ::testing::HasSubstr;
 using testing::kMadeUpAsf;
+using testing::ProgramRun;
 using testing::RandomMotion;
+using testing::RunProgram;
 using testing::ScratchDir;
 using testing::TestRng;
 using testing::WriteScratch;
-
-struct Outcome {
-  int code;
-  std::string errors;
-};
-
-// Runs in the scratch folder.
-Outcome RunProgram(const std::string& arguments) {
-  const std::string command = "cd '" + ScratchDir().string() + "' && '" POSELIFT_PROGRAM "' " +
-                              arguments + " >out.txt 2>err.txt";
-  const int status = std::system(command.c_str());
-  return {WEXITSTATUS(status), ReadTextFile(ScratchDir() / "err.txt")};
-}
 
 Motion WriteMadeUpMotion() {
   auto rng = TestRng();
@@ -51,12 +39,12 @@ Motion WriteMadeUpMotion() {
 
 TEST(Convert, TakesAnAmcToBvhAndBackOnItsSkeleton) {
   const Motion motion = WriteMadeUpMotion();
-  const Outcome there = RunProgram("convert 09_01.amc a.bvh --units m");
-  EXPECT_EQ(there.code, 0) << there.errors;
-  EXPECT_THAT(there.errors, HasSubstr("lengths in m; to have metres, import it with scale 1"));
+  const ProgramRun there = RunProgram("convert 09_01.amc a.bvh --units m");
+  EXPECT_EQ(there.code, 0) << there.err;
+  EXPECT_THAT(there.err, HasSubstr("lengths in m; to have metres, import it with scale 1"));
   ExpectSamePlaces(motion, ReadBvh(ScratchDir() / "a.bvh", {.metres_per_unit = 1.0}), 1e-6);
-  const Outcome back = RunProgram("convert a.bvh b.amc --units m --skeleton 09.asf");
-  EXPECT_EQ(back.code, 0) << back.errors;
+  const ProgramRun back = RunProgram("convert a.bvh b.amc --units m --skeleton 09.asf");
+  EXPECT_EQ(back.code, 0) << back.err;
   EXPECT_FALSE(std::filesystem::exists(ScratchDir() / "b.asf"));
   ExpectSamePlaces(motion,
                    ReadMotion(ScratchDir() / "b.amc", {.skeleton = ScratchDir() / "09.asf"}), 1e-6);
@@ -90,39 +78,9 @@ TEST(Convert, SaysWhatIsWrongWithItsExitCode) {
   WriteScratch("other.bvh",
                "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n}\nMOTION\n"
                "Frames: 1\nFrame Time: 1\n5\n");
-  const Outcome outcome = RunProgram("convert other.bvh b.amc --skeleton 09.asf");
+  const ProgramRun outcome = RunProgram("convert other.bvh b.amc --skeleton 09.asf");
   EXPECT_EQ(outcome.code, 3);
-  EXPECT_THAT(outcome.errors, HasSubstr("no bone that the motion has too"));
-}
-
-TEST(Info, DescribesEveryMotionFormat) {
-  const Motion motion = WriteMadeUpMotion();
-  EXPECT_EQ(RunProgram("convert 09_01.amc a.bvh").code, 0);
-  std::filesystem::copy(ScratchDir() / "a.bvh", ScratchDir() / "by_content");
-  EXPECT_EQ(RunProgram("info a.bvh 09_01.amc 09.asf by_content --json facts.json").code, 0);
-  const auto facts = nlohmann::json::parse(ReadTextFile(ScratchDir() / "facts.json"));
-  EXPECT_EQ(facts["command"], "info");
-  ASSERT_EQ(facts["files"].size(), 4u);
-  EXPECT_EQ(facts["files"][0]["kind"], "BVH motion");
-  EXPECT_EQ(facts["files"][3]["kind"], "BVH motion");
-  EXPECT_EQ(facts["files"][1]["frames"], 12);
-  EXPECT_EQ(facts["files"][1]["bones"], motion.skeleton.bones.size());
-  EXPECT_EQ(facts["files"][1]["dofs"], 6 + motion.skeleton.NumDofs());
-  EXPECT_NEAR(facts["files"][0]["rate_hz"], 120.0, 1e-3);
-  EXPECT_NEAR(facts["files"][0]["highest_m"][1], facts["files"][1]["highest_m"][1], 1e-6);
-}
-
-TEST(Info, GoesOnAfterAnUnreadableFile) {
-  WriteMadeUpMotion();
-  WriteScratch("strange", "\xFF\xFE nothing");
-  const Outcome outcome = RunProgram("info strange absent . 09.asf --json facts.json");
-  EXPECT_EQ(outcome.code, 3);
-  EXPECT_THAT(outcome.errors, HasSubstr("of no kind I know"));
-  EXPECT_THAT(outcome.errors, HasSubstr("no such file"));
-  const auto facts = nlohmann::json::parse(ReadTextFile(ScratchDir() / "facts.json"));
-  ASSERT_EQ(facts["files"].size(), 4u);
-  EXPECT_TRUE(facts["files"][0].contains("error"));
-  EXPECT_EQ(facts["files"][3]["kind"], "ASF skeleton");
+  EXPECT_THAT(outcome.err, HasSubstr("no bone that the motion has too"));
 }
 
 }  // namespace
