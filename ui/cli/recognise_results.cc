@@ -7,6 +7,7 @@
 
 #include "src/io/poses_json.h"
 #include "ui/cli/recognisers.h"
+#include "ui/cli/truth.h"
 
 namespace poselift::cli {
 namespace {
@@ -58,6 +59,15 @@ Json DescribePoses(const std::filesystem::path& path) {
   AddErrors(std::move(reprojection_rms_px), &facts);
   AddTimes(poses, &facts);
   return facts;
+}
+
+// Lifted poses have these joints too, and stand before it in the table.
+bool IsTruth(const std::filesystem::path&, std::string_view head) {
+  return head.find("\"joints_in_cam\"") != std::string_view::npos;
+}
+
+Json DescribeTruth(const std::filesystem::path& path) {
+  return {{"joints", ReadTruth(path).landmarks.size()}};
 }
 
 }  // namespace poselift::cli

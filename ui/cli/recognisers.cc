@@ -18,6 +18,7 @@ std::span<const Recogniser> Recognisers() {
       Recogniser{"picture", IsImage, DescribeImage},
       Recogniser{"camera", IsCamera, DescribeCamera},
       Recogniser{"lifted poses", IsPoses, DescribePoses},
+      Recogniser{"true joints", IsTruth, DescribeTruth},
       Recogniser{"labels", IsLabels, DescribeLabels},  // of all JSON, so the last
   };
   return kRecognisers;

@@ -44,6 +44,10 @@ nlohmann::ordered_json DescribeImage(const std::filesystem::path& path);
 bool IsPoses(const std::filesystem::path& path, std::string_view head);
 nlohmann::ordered_json DescribePoses(const std::filesystem::path& path);
 
+// True joints for `lift --truth`: recognise_results.cc.
+bool IsTruth(const std::filesystem::path& path, std::string_view head);
+nlohmann::ordered_json DescribeTruth(const std::filesystem::path& path);
+
 // Any JSON, and a directory: the labels' reader knows what is wrong with it.
 bool IsLabels(const std::filesystem::path& path, std::string_view head);
 nlohmann::ordered_json DescribeLabels(const std::filesystem::path& path);

@@ -134,6 +134,15 @@ TEST(Info, SumsUpLiftedPoses) {
   EXPECT_EQ(facts["time_s"], json({0.0, 1.5}));
 }
 
+TEST(Info, KnowsTrueJoints) {
+  WriteScratch("truth.json",
+               R"({"joints_in_cam": {"left_hip": [0, 0, 1], "right_hip": [1, 0, 1],
+"left_knee": [0, 1, 1], "right_knee": [1, 1, 1]}})");
+  const json facts = FactsOf("truth.json");
+  EXPECT_EQ(facts["kind"], "true joints");
+  EXPECT_EQ(facts["joints"], 4);
+}
+
 TEST(Info, SaysHowWideACameraSees) {
   const Camera camera{.width_px = 200,
                       .height_px = 100,
