@@ -3,6 +3,7 @@
 #include "lift/alternation.h"
 
 #include <Eigen/Cholesky>
+#include <utility>
 
 namespace poselift {
 
@@ -13,11 +14,8 @@ Alternation::Alternation(const Dictionary& dictionary, const LifterOptions& opti
       options_(options),
       op_(observation),
       centred_atoms_(op_.CentredPointsOfAll(dictionary.atoms)),
-      rows_(op_.NumRows() + prior_rows.rows(), dictionary.NumAtoms()),
-      target_(rows_.rows()) {
-  rows_.bottomRows(prior_rows.rows()) = prior_rows;
-  target_ << op_.target(), prior_target;
-}
+      rows_(op_.NumRows(), dictionary.NumAtoms()),
+      prior_(prior_rows, prior_target) {}
 
 void Alternation::Run(int max_alternations, LiftSolution* solution) {
   for (int i = 0; i < max_alternations && !solution->converged; ++i) {
@@ -32,10 +30,10 @@ void Alternation::Run(int max_alternations, LiftSolution* solution) {
 }
 
 void Alternation::UpdateCode(LiftSolution* solution) {
-  op_.ApplyToAll(CamFromBody(solution->tau_rad), solution->scale_px_per_m, centred_atoms_,
-                 rows_.topRows(op_.NumRows()));
+  op_.ApplyToAll(CamFromBody(solution->tau_rad), solution->scale_px_per_m, centred_atoms_, rows_);
   SparseCode code;
-  omp_.Solve(rows_, rows_.colwise().squaredNorm().transpose(), target_, options_.omp, &code);
+  omp_.Solve(rows_, rows_.colwise().squaredNorm().transpose(), op_.target(), options_.omp, &code,
+             &prior_);
   double objective = Objective(code, solution->tau_rad);
   if (!solution->code.Empty()) {
     // OMP is greedy: its new choice may be worse than the old atoms refitted.
@@ -58,8 +56,10 @@ void Alternation::UpdateRotation(LiftSolution* solution) {
   const RotationEstimate estimate =
       EstimateRotation(op_, op_.CentredPoints(solution->pose_in_body_m), solution->scale_px_per_m,
                        solution->tau_rad, options_.rotation);
+  const double objective = estimate.objective + CodeCost(solution->code);
+  if (!(objective < solution->objective)) return;
   solution->tau_rad = estimate.tau_rad;
-  solution->objective = estimate.objective + CodeCost(solution->code);
+  solution->objective = objective;
   solution->history.push_back(solution->objective);
 }
 
@@ -77,25 +77,24 @@ void Alternation::UpdateScale(LiftSolution* solution) {
 }
 
 double Alternation::CodeCost(const SparseCode& code) const {
-  const auto prior = rows_.bottomRows(rows_.rows() - op_.NumRows());
-  return (Synthesize(prior, code) - target_.tail(prior.rows())).squaredNorm() +
-         options_.omp.ridge * code.coefficients.squaredNorm();
+  return prior_.ResidualSquared(code) + options_.omp.ridge * code.coefficients.squaredNorm();
 }
 
 double Alternation::Objective(const SparseCode& code, const Eigen::Vector3d& tau_rad) const {
-  return (Synthesize(rows_, code) - target_).squaredNorm() +
-         options_.omp.ridge * code.coefficients.squaredNorm() +
+  return (Synthesize(rows_, code) - op_.target()).squaredNorm() + CodeCost(code) +
          RotationPriorCost(tau_rad, options_.rotation);
 }
 
 // P1a without the search: the best coefficients on the atoms it has.
-void Alternation::Refit(SparseCode* code) const {
-  const auto size = static_cast<Eigen::Index>(code->atoms.size());
-  Eigen::MatrixXd chosen(rows_.rows(), size);
-  for (Eigen::Index i = 0; i < size; ++i) chosen.col(i) = rows_.col(code->atoms[i]);
+void Alternation::Refit(SparseCode* code) {
+  const Eigen::MatrixXd chosen = rows_(Eigen::all, code->atoms);
   Eigen::MatrixXd gram = chosen.transpose() * chosen;
   gram.diagonal().array() += options_.omp.ridge;
-  code->coefficients = gram.ldlt().solve(chosen.transpose() * target_);
+  for (size_t i = 0; i < code->atoms.size(); ++i)
+    gram.col(static_cast<Eigen::Index>(i)) += prior_.GramColumn(code->atoms[i])(code->atoms);
+  const Eigen::VectorXd target_dots =
+      chosen.transpose() * op_.target() + prior_.target_dots()(code->atoms);
+  code->coefficients = gram.ldlt().solve(target_dots);
 }
 
 }  // namespace poselift

@@ -29,18 +29,18 @@ class Alternation {
   void UpdateRotation(LiftSolution* solution);  // (P1b)
   void UpdateScale(LiftSolution* solution);
 
-  // The terms of the objective that the code alone decides.
+  // The terms of the objective that the code alone decides: prior and ridge.
   double CodeCost(const SparseCode& code) const;
   // The whole objective of a code under the rows and angles as they stand.
   double Objective(const SparseCode& code, const Eigen::Vector3d& tau_rad) const;
-  void Refit(SparseCode* code) const;
+  void Refit(SparseCode* code);
 
   const Dictionary& dictionary_;
   const LifterOptions& options_;
   ProjectionOperator op_;
   Eigen::MatrixXd centred_atoms_;  // 3 points x K
-  Eigen::MatrixXd rows_;           // A_p over the prior's rows: M x K
-  Eigen::VectorXd target_;         // M
+  Eigen::MatrixXd rows_;           // A_p as it was last seen: NumRows x K
+  ConstantRows prior_;
   OmpSolver omp_;
 };
 

@@ -13,6 +13,10 @@
 namespace poselift {
 namespace {
 
+constexpr int kLeastPoints = 4;
+// px or m: fourth powers of what lies within are far from overflow.
+constexpr double kFarthest = 1e9;
+
 void SortByObjective(std::vector<LiftSolution>* solutions) {
   std::stable_sort(
       solutions->begin(), solutions->end(),
@@ -71,13 +75,19 @@ std::string LifterOptions::Validate() const {
 }
 
 std::string CanLift(const Observation& observation) {
-  constexpr int kLeastPoints = 4;
   const auto count = static_cast<int>(observation.points.size());
   if (count < kLeastPoints)
     return fmt::format("{} usable points, wanted at least {} well spread ones", count,
                        kLeastPoints);
+  for (const ObservedPoint& point : observation.points) {
+    if (!(point.x.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kFarthest))
+      return fmt::format("'{}' is at ({}, {}, {}), wanted numbers up to {}", point.name,
+                         point.x.x(), point.x.y(), point.x.z(), kFarthest);
+    if (!(point.sigma >= 1.0 / kFarthest && point.sigma <= kFarthest))
+      return fmt::format("'{}' has a sigma of {}, wanted {} to {}", point.name, point.sigma,
+                         1.0 / kFarthest, kFarthest);
+  }
   const ProjectionOperator op(observation);
-  if (!op.target().allFinite()) return "a point is not finite";
   // The target is in units of sigma.
   if (op.target().squaredNorm() < static_cast<double>(op.NumRows()))
     return "all points lie in one place, wanted points spread over the body";
@@ -101,10 +111,11 @@ std::vector<LiftSolution> Lifter::Solve(const Observation& observation) const {
   const auto starts =
       SearchViews(alternation.op(), alternation.centred_atoms(), options_.rotation, options_.views);
   auto solutions = AtStarts(starts, dictionary_, alternation.op().Has2D());
-  for (LiftSolution& solution : solutions) alternation.Run(options_.trial_alternations, &solution);
+  const int trial = std::min(options_.trial_alternations, options_.max_alternations);
+  for (LiftSolution& solution : solutions) alternation.Run(trial, &solution);
   SortByObjective(&solutions);
   for (int i = 0; i < options_.num_finishing && i < static_cast<int>(solutions.size()); ++i)
-    alternation.Run(options_.max_alternations - options_.trial_alternations, &solutions[i]);
+    alternation.Run(options_.max_alternations - trial, &solutions[i]);
   SortByObjective(&solutions);
   return Distinct(std::move(solutions), options_.distinct_m);
 }

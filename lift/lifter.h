@@ -74,8 +74,8 @@ class Lifter {
   Eigen::VectorXd prior_target_;  // prior_weight whitening mean
 };
 
-// Empty, or why these points do not determine a pose: fewer than four, or all
-// in one place.
+// Empty, or why these points do not determine a pose: fewer than four, all in
+// one place, or numbers that are none or beyond any picture.
 std::string CanLift(const Observation& observation);
 
 }  // namespace poselift

@@ -16,7 +16,8 @@ Eigen::VectorXd BoneLengths(const Skeleton& skeleton);
 // Pose normalisation (Algorithm 1 of the sparse coding paper, corrected: see
 // lift/README.md): along the five chains, from the pelvis outwards, every bone
 // keeps its direction and gets its standard length. The pelvis stays. A bone
-// of no length has no direction: it takes the parent bone's.
+// of no length has no direction: it takes that of the bone before it in its
+// chain, +y at the start of one.
 //
 // pose: 3 x 23 in any unit and frame; the result is in metres.
 Pose3 NormalizePose(const Pose3& pose, const Eigen::VectorXd& bone_lengths_m);

@@ -4,7 +4,9 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
+#include "lift/constant_rows.h"
 #include "lift/sparse_code.h"
 
 namespace poselift {
@@ -30,29 +32,40 @@ struct OmpOptions {
   std::string Validate() const;  // empty, or which option is wrong and why
 };
 
-// Keeps its storage, so that repeated calls of one size allocate nothing.
+// Keeps its storage, so that repeated calls of one size allocate nothing but
+// the code they return.
 class OmpSolver {
  public:
-  // squared_norms: |a_k|^2 of the columns of atoms.
+  // atoms: M x K; squared_norms: |a_k|^2 of its columns; target: M. Ends early
+  // when no atom can lower the objective by more than rounding. Atoms in the
+  // span of the chosen ones are passed over.
+  // `constant`, where given, holds further rows under those of atoms and target:
+  // the result is that of the stacked problem.
   void Solve(const Eigen::MatrixXd& atoms, const Eigen::VectorXd& squared_norms,
-             const Eigen::VectorXd& target, const OmpOptions& options, SparseCode* code);
+             const Eigen::VectorXd& target, const OmpOptions& options, SparseCode* code,
+             ConstantRows* constant = nullptr);
 
-  // |A_p x - v_p|^2 of the last Solve.
+  // |A_p x - v_p|^2 of the last Solve, over all rows.
   double residual_squared() const { return residual_squared_; }
 
  private:
-  int BestAtom(const Eigen::VectorXd& squared_norms, double ridge) const;
+  // 1 / (|a_k|^2 + ridge), 0 for what the operator does not see.
+  void WeighAtoms(const Eigen::VectorXd& squared_norms, double ridge, const ConstantRows* constant);
+  // correlation_ from residual_ and the code.
+  void Correlate(const Eigen::MatrixXd& atoms, const SparseCode& code, ConstantRows* constant);
+  // The atom of most gain, which is not offered again; -1 when none gains more
+  // than least_gain.
+  int TakeBestAtom(double least_gain);
   // False when the atom lies in the span of the chosen ones.
   bool AppendToCholesky(const Eigen::MatrixXd& atoms, const std::vector<int>& chosen, int atom,
-                        double ridge);
+                        double ridge, ConstantRows* constant);
 
+  Eigen::VectorXd atom_weight_;
   Eigen::VectorXd correlation_;  // <a_k, r>
-  Eigen::VectorXd residual_;
-  Eigen::VectorXd target_dot_;  // <a_k, v> of the chosen
-  Eigen::VectorXd solution_;
-  Eigen::MatrixXd cholesky_;  // lower factor of the chosen atoms' Gram matrix
+  Eigen::VectorXd residual_;     // of the rows of atoms
+  Eigen::VectorXd target_dot_;   // <a_k, v> of the chosen
+  Eigen::MatrixXd cholesky_;     // lower factor of the chosen atoms' Gram matrix
   Eigen::VectorXd gram_row_;
-  std::vector<char> taken_;
   double residual_squared_ = 0.0;
 };
 

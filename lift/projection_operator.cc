@@ -17,7 +17,7 @@ ProjectionOperator::ProjectionOperator(const Observation& observation) {
   weights_.resize(num_points);
   Eigen::Matrix3Xd x(3, num_points);
   for (Eigen::Index i = 0; i < num_points; ++i) {
-    for (const auto& [joint, weight] : points[i]->parts) landmark_from_joint_(i, joint) = weight;
+    for (const auto& [joint, weight] : points[i]->parts) landmark_from_joint_(i, joint) += weight;
     weights_[i] = 1.0 / points[i]->sigma;
     x.col(i) = points[i]->x;
   }

@@ -21,7 +21,8 @@ namespace poselift {
 // translation is C v, where C takes the weighted mean of its kind (2D or 3D)
 // away from every row. C is symmetric and C C = C; it commutes with R, so each
 // pose is centred once. The rows of P y are C W (..) and those of the target
-// likewise. The paper's P (0/1 on the diagonal, root shifted to the origin) is
+// likewise: x and y of each 2D point in their order, then x, y and z of each 3D
+// point. The paper's P (0/1 on the diagonal, root shifted to the origin) is
 // the case R M_i = one coordinate of one joint.
 class ProjectionOperator {
  public:

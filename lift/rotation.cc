@@ -48,10 +48,10 @@ Eigen::Matrix3d CamFromBody(const Eigen::Vector3d& tau_rad) {
 Eigen::Vector3d TauFromRotation(const Eigen::Matrix3d& cam_from_body) {
   // Rz(c) Rx(a) Ry(b): last row is (-cos a sin b, sin a, cos a cos b).
   const Eigen::Matrix3d R = kFacing * cam_from_body;
-  const double pitch = std::asin(std::clamp(R(2, 1), -1.0, 1.0));
-  if (std::hypot(R(2, 0), R(2, 2)) < 1e-9) {  // looking along the body: only yaw + roll is known
+  const double cos_pitch = std::hypot(R(2, 0), R(2, 2));
+  const double pitch = std::atan2(R(2, 1), cos_pitch);  // asin would lose half the digits here
+  if (cos_pitch < 1e-9)  // looking along the body: only yaw and roll together are known
     return {pitch, 0.0, std::atan2(R(1, 0), R(0, 0))};
-  }
   return {pitch, std::atan2(-R(2, 0), R(2, 2)), std::atan2(-R(0, 1), R(1, 1))};
 }
 

@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 namespace poselift {
 namespace {
@@ -16,23 +15,28 @@ namespace {
 struct AtomMoments {
   Eigen::Matrix3Xd with_x, with_y, with_z;           // B b_x^T, B b_y^T, B b_z^T
   Eigen::Matrix<double, 6, Eigen::Dynamic> scatter;  // B B^T: xx xy xz yy yz zz
+  Eigen::ArrayXd energy;                             // |B|^2
 };
 
-AtomMoments Moments(const Eigen::MatrixXd& centred_atoms, Eigen::Index first, Eigen::Index count,
+// The points [first, first + target.cols()) of every atom.
+AtomMoments Moments(const Eigen::MatrixXd& centred_atoms, Eigen::Index first,
                     const Eigen::Matrix3Xd& target) {
   const Eigen::Index num_atoms = centred_atoms.cols();
-  AtomMoments moments{Eigen::Matrix3Xd(3, num_atoms),
-                      Eigen::Matrix3Xd(3, num_atoms),
-                      Eigen::Matrix3Xd(3, num_atoms),
-                      {}};
+  AtomMoments moments;
+  moments.with_x.resize(3, num_atoms);
+  moments.with_y.resize(3, num_atoms);
+  moments.with_z.resize(3, num_atoms);
   moments.scatter.resize(6, num_atoms);
+  moments.energy.resize(num_atoms);
   for (Eigen::Index k = 0; k < num_atoms; ++k) {
-    const Eigen::Map<const Eigen::Matrix3Xd> B(centred_atoms.col(k).data() + 3 * first, 3, count);
+    const Eigen::Map<const Eigen::Matrix3Xd> B(centred_atoms.col(k).data() + 3 * first, 3,
+                                               target.cols());
     moments.with_x.col(k).noalias() = B * target.row(0).transpose();
     moments.with_y.col(k).noalias() = B * target.row(1).transpose();
     moments.with_z.col(k).noalias() = B * target.row(2).transpose();
     const Eigen::Matrix3d S = B * B.transpose();
     moments.scatter.col(k) << S(0, 0), S(0, 1), S(0, 2), S(1, 1), S(1, 2), S(2, 2);
+    moments.energy[k] = S.trace();
   }
   return moments;
 }
@@ -57,16 +61,13 @@ ViewStart BestAtomOfView(const AtomMoments& moments, bool is_3d, double target_s
     product += (r3 * moments.with_z).transpose().array();
     norm += Quadratic(r3, moments).transpose().array();
   }
-  // A third of an atom's energy must be seen: a body end on fits anything.
-  const Eigen::ArrayXd whole =
-      (moments.scatter.row(0) + moments.scatter.row(3) + moments.scatter.row(5)).transpose();
+  // A quarter of an atom's energy must be seen: a body end on fits anything.
   const Eigen::ArrayXd gain =
-      (norm > 0.25 * whole && product > 0.0).select(product.square() / norm, 0.0);
+      (norm > 0.25 * moments.energy && product > 0.0).select(product.square() / norm, 0.0);
   ViewStart start;
   Eigen::Index best = 0;
   start.cost = target_squared - gain.maxCoeff(&best);
   start.atom = static_cast<int>(best);
-  start.scale_px_per_unit = is_3d ? 1.0 : product[best] / norm[best];
   // CamFromBody with roll c turns the picture by -c.
   start.tau_rad << pitch_rad, yaw_rad, -std::atan2(imaginary[best], real[best]);
   return start;
@@ -94,13 +95,15 @@ std::string ViewSearchOptions::Validate() const {
 std::vector<ViewStart> SearchViews(const ProjectionOperator& op,
                                    const Eigen::MatrixXd& centred_atoms,
                                    const RotationOptions& prior, const ViewSearchOptions& options) {
-  const bool is_3d = !op.Has2D();
-  const Eigen::Index count = op.Has2D() ? op.Num2D() : op.NumPoints();
-  Eigen::Matrix3Xd target = Eigen::Matrix3Xd::Zero(3, count);
-  const int rows_per_point = is_3d ? 3 : 2;
-  target.topRows(rows_per_point) =
-      Eigen::Map<const Eigen::MatrixXd>(op.target().data(), rows_per_point, count);
-  const AtomMoments moments = Moments(centred_atoms, 0, count, target);
+  const int num_3d = op.NumPoints() - op.Num2D();
+  const bool is_3d = num_3d > op.Num2D();
+  Eigen::Matrix3Xd target = Eigen::Matrix3Xd::Zero(3, is_3d ? num_3d : op.Num2D());
+  if (is_3d) {
+    target = op.target().tail(3 * num_3d).reshaped(3, num_3d);
+  } else {
+    target.topRows<2>() = op.target().head(2 * op.Num2D()).reshaped(2, op.Num2D());
+  }
+  const AtomMoments moments = Moments(centred_atoms, is_3d ? op.Num2D() : 0, target);
 
   std::vector<ViewStart> views;
   for (const double pitch : options.pitches_rad)
@@ -121,6 +124,9 @@ std::vector<ViewStart> SearchViews(const ProjectionOperator& op,
     });
     if (is_new) starts.push_back(view);
   }
+  for (ViewStart& start : starts)
+    start.scale_px_per_unit = op.BestScale_px_per_m(
+        CamFromBody(start.tau_rad), centred_atoms.col(start.atom).reshaped(3, op.NumPoints()), 1.0);
   return starts;
 }
 

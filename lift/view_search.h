@@ -31,14 +31,15 @@ struct ViewSearchOptions {
 
 struct ViewStart {
   Eigen::Vector3d tau_rad;
-  double scale_px_per_unit = 1.0;  // px per unit of the atom's norm; 1 without 2D points
+  // px per unit of the atom's norm; 1 where the 2D points leave it open.
+  double scale_px_per_unit = 1.0;
   int atom = 0;
   double cost = 0.0;
 };
 
 // Starts in order of their cost (residual of the best atom + prior of tau).
-// centred_atoms: op.CentredPointsOfAll(). 2D points only are looked at where
-// there are any, the 3D points otherwise.
+// centred_atoms: op.CentredPointsOfAll(). Of a mixture the kind with more points
+// is looked at, the 2D points when there are as many.
 std::vector<ViewStart> SearchViews(const ProjectionOperator& op,
                                    const Eigen::MatrixXd& centred_atoms,
                                    const RotationOptions& prior, const ViewSearchOptions& options);

@@ -43,18 +43,27 @@ bool Assign(const Eigen::MatrixXd& points, const Eigen::MatrixXd& centres,
   return changed;
 }
 
-// Means of the clusters; an empty one takes the point farthest from its centre.
-void MoveCentres(const Eigen::MatrixXd& points, Eigen::VectorXi* clusters,
-                 Eigen::VectorXd* distances, Eigen::MatrixXd* centres) {
+// The point farthest from its centre among those that do not stand alone.
+Eigen::Index FarthestInCompany(const Eigen::VectorXi& clusters, const Eigen::VectorXi& counts,
+                               const Eigen::VectorXd& distances) {
+  Eigen::Index farthest = -1;
+  for (Eigen::Index j = 0; j < clusters.size(); ++j)
+    if (counts[clusters[j]] > 1 && (farthest < 0 || distances[j] > distances[farthest]))
+      farthest = j;
+  return farthest;
+}
+
+// Means of the clusters. An empty cluster first takes a far point from another;
+// there are at least as many points as clusters, so one is to be had.
+void MoveCentres(const Eigen::MatrixXd& points, const Eigen::VectorXd& distances,
+                 Eigen::VectorXi* clusters, Eigen::MatrixXd* centres) {
   Eigen::VectorXi counts = Eigen::VectorXi::Zero(centres->cols());
   for (const int c : *clusters) ++counts[c];
   for (int c = 0; c < counts.size(); ++c) {
     if (counts[c] > 0) continue;
-    Eigen::Index farthest = 0;
-    distances->maxCoeff(&farthest);
-    --counts[(*clusters)[farthest]];
-    (*clusters)[farthest] = c;
-    (*distances)[farthest] = 0.0;
+    const Eigen::Index taken = FarthestInCompany(*clusters, counts, distances);
+    --counts[(*clusters)[taken]];
+    (*clusters)[taken] = c;
     counts[c] = 1;
   }
   centres->setZero();
@@ -71,7 +80,7 @@ Eigen::VectorXi KMeans(const Eigen::MatrixXd& points, int num_clusters, int max_
   Eigen::VectorXd distances(points.cols());
   Eigen::MatrixXd centres = SeedCentres(points, num_clusters, seed);
   for (int i = 0; i < max_iterations && Assign(points, centres, &clusters, &distances); ++i)
-    MoveCentres(points, &clusters, &distances, &centres);
+    MoveCentres(points, distances, &clusters, &centres);
   return clusters;
 }
 

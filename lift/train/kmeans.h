@@ -4,13 +4,13 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <vector>
 
 namespace poselift {
 
 // k-means (Lloyd, seeded by k-means++) on the columns of points (D x m).
-// Returns the cluster of each column; no cluster is empty. Deterministic by
-// seed whatever the number of threads.
+// Returns the cluster of each column, [0, min(num_clusters, m)); no cluster is
+// empty. m and max_iterations are at least 1. Deterministic by seed whatever the
+// number of threads.
 Eigen::VectorXi KMeans(const Eigen::MatrixXd& points, int num_clusters, int max_iterations,
                        std::uint64_t seed);
 

@@ -52,13 +52,7 @@ void UpdateAtoms(const Uses& uses, SparseCodes* codes, Eigen::MatrixXd* residual
   Eigen::VectorXd atom, coefficients;
   for (Eigen::Index k = 0; k < atoms->cols(); ++k) {
     const auto& used = uses[k];
-    if (used.empty()) {
-      // The worst coded pose gets an atom of its own; no code uses it yet.
-      Eigen::Index worst = 0;
-      const double error = residual->colwise().squaredNorm().maxCoeff(&worst);
-      if (error > 0.0) atoms->col(k) = residual->col(worst).normalized();
-      continue;
-    }
+    if (used.empty()) continue;
     const auto count = static_cast<Eigen::Index>(used.size());
     E.resize(residual->rows(), count);
     for (Eigen::Index c = 0; c < count; ++c) {
@@ -80,6 +74,18 @@ void UpdateAtoms(const Uses& uses, SparseCodes* codes, Eigen::MatrixXd* residual
   }
 }
 
+// The worst coded poses get an atom each; no code uses it yet.
+void ReplaceUnused(const Uses& uses, const Eigen::MatrixXd& residual, Eigen::MatrixXd* atoms) {
+  Eigen::RowVectorXd errors = residual.colwise().squaredNorm();
+  for (Eigen::Index k = 0; k < atoms->cols(); ++k) {
+    if (!uses[k].empty()) continue;
+    Eigen::Index worst = 0;
+    if (!(errors.maxCoeff(&worst) > 0.0)) return;
+    atoms->col(k) = residual.col(worst).normalized();
+    errors[worst] = 0.0;
+  }
+}
+
 }  // namespace
 
 std::string KsvdOptions::Validate() const {
@@ -98,19 +104,26 @@ double JointRms_m(double squared_error_m2, Eigen::Index num_poses) {
 KsvdReport TrainKsvd(const Eigen::MatrixXd& poses, const KsvdOptions& options,
                      Eigen::MatrixXd* atoms) {
   KsvdReport report;
+  std::vector<double>& errors = report.rms_error_m;
   atoms->colwise().normalize();
+  Eigen::MatrixXd before;
   for (int iteration = 0;; ++iteration) {
     SparseCodes codes = BatchOmp(*atoms, poses, options.sparsity);
-    const Uses uses = FindUses(codes, atoms->cols());
     Eigen::MatrixXd residual = Residual(poses, *atoms, codes);
-    report.rms_error_m.push_back(JointRms_m(residual.squaredNorm(), poses.cols()));
+    const double error = JointRms_m(residual.squaredNorm(), poses.cols());
+    if (!errors.empty() && !(error < errors.back())) {
+      *atoms = before;
+      return report;
+    }
+    const bool settled = !errors.empty() && errors.back() - error < options.min_improvement * error;
+    const Uses uses = FindUses(codes, atoms->cols());
+    errors.push_back(error);
     report.atom_use.clear();
     for (const auto& used : uses) report.atom_use.push_back(static_cast<int>(used.size()));
-    const auto& errors = report.rms_error_m;
-    const bool settled = errors.size() > 1 && errors[errors.size() - 2] - errors.back() <
-                                                  options.min_improvement * errors.back();
     if (settled || iteration == options.max_iterations) return report;
+    before = *atoms;
     UpdateAtoms(uses, &codes, &residual, atoms);
+    ReplaceUnused(uses, residual, atoms);
   }
 }
 

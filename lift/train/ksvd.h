@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,9 @@ namespace poselift {
 // E_k the residual of the poses that use atom k, with k's own part put back, the
 // atom becomes the first left singular vector of E_k and its coefficients the
 // matching right one (by power iteration: the other singular pairs are not
-// needed). An atom nobody uses is replaced by the worst coded pose.
+// needed). Atoms nobody uses are replaced by what is left of the worst coded
+// poses. Renewing the atoms never raises the error; coding anew can, as OMP is
+// greedy: then the training ends with the atoms it had before.
 struct KsvdOptions {
   int sparsity = 6;
   int max_iterations = 15;
@@ -27,8 +28,9 @@ struct KsvdOptions {
 };
 
 struct KsvdReport {
-  std::vector<double> rms_error_m;  // of a joint, before each update and at the end
-  std::vector<int> atom_use;        // poses that use each atom
+  // Of a joint, coded by OMP: before each update and at the end. Falls.
+  std::vector<double> rms_error_m;
+  std::vector<int> atom_use;  // poses that use each atom
 };
 
 // poses: 69 x m in metres. atoms: in the start (columns are normalised), out
