@@ -26,16 +26,15 @@ constexpr std::string_view kStateNames[] = {"visible", "occluded", "absent"};
 
 const JsonValue& Joints(const JsonValue& person) { return person.At("joints"); }
 
-// The layout's own name of a landmark: "head" is head_top, and "neck" thorax
-// where the layout has them. Empty when the layout has no such landmark.
+// The layout's own name of a landmark; "head" also stands for head_top, and
+// "neck" and thorax for each other. Empty when the layout has no such landmark.
 std::string_view NameInLayout(const Layout& layout, std::string_view name) {
+  constexpr std::pair<std::string_view, std::string_view> kAliases[] = {
+      {"head", "head_top"}, {"neck", "thorax"}, {"thorax", "neck"}};
   if (const auto found = layout.Find(name)) return layout.landmarks[*found].name;
-  const auto joint = FindJoint(name);
-  if (!joint) return {};
-  for (const Landmark& landmark : layout.landmarks)
-    if (landmark.parts.size() == 1 && landmark.parts[0].joint == *joint &&
-        landmark.offset_sigma_m == 0.0)
-      return landmark.name;
+  for (const auto& [alias, own] : kAliases)
+    if (const auto found = alias == name ? layout.Find(own) : std::nullopt)
+      return layout.landmarks[*found].name;
   return {};
 }
 
