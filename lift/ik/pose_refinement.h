@@ -14,9 +14,9 @@
 namespace poselift {
 
 struct RefinementOptions {
-  // gamma of Eq. (4): 1 / sigma^2 of a prior coordinate, here 7 cm. Large: the
+  // gamma of Eq. (4): 1 / sigma^2 of a prior coordinate, here 13 cm. Large: the
   // prior's pose; small: the labels.
-  double gamma_per_m2 = 200.0;
+  double gamma_per_m2 = 60.0;
   // What one radian from rest weighs beside the other terms, in standard
   // deviations: see IkOptions::pull_m_per_rad.
   double pull_per_rad = 0.02;

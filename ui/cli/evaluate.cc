@@ -32,7 +32,7 @@ struct Options {
   std::vector<std::string> test_subjects = {"07", "09", "16", "49"};
   TrainOptions train;
   EvaluateLiftOptions evaluation;
-  int exemplars = 20000;
+  int exemplars = 10000;
 };
 
 // The dictionary of the training subjects, on their standard skeleton.
