@@ -10,7 +10,6 @@ build_release poselift poselift_bench
 
 lift_sample() { # lift_sample NAME: into out/demo/NAME
   local sample=samples/photo/$1
-  # FILL: the one place where the truth comes in.
   build/poselift lift "$sample.jpg" --labels "$sample.labels.json" --out "out/demo/$1" \
     --truth "$sample.truth.json"
 }

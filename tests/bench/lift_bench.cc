@@ -2,9 +2,12 @@
 // Copyright (c) 2026 the poselift authors
 #include <benchmark/benchmark.h>
 
+#include <filesystem>
 #include <numeric>
 #include <random>
 
+#include "lift/dictionary_file.h"
+#include "lift/lift_photo.h"
 #include "lift/lifter.h"
 #include "src/forward_kinematics.h"
 #include "tests/support/random_dictionary.h"
@@ -70,6 +73,22 @@ BENCHMARK(LiftPhotoBench)
     ->ArgName("random")
     ->Arg(1024)
     ->Unit(benchmark::kMillisecond);
+
+// The whole lift of one person, joint angles and alternatives included, with the
+// dictionary that ships.
+void LiftPhotoDefaultBench(benchmark::State& state) {
+  const Dictionary dictionary =
+      ReadDictionary(std::filesystem::path(POSELIFT_SOURCE_DIR) / "data/default.pldict");
+  std::mt19937_64 rng(1);
+  const Observation observation = Picture(dictionary.skeleton, &rng);
+  const PhotoLifter lifter(dictionary);
+  for (auto _ : state) {
+    auto result = lifter.LiftPhoto(observation);
+    benchmark::DoNotOptimize(result.poses.data());
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(LiftPhotoDefaultBench)->Name("lift_photo/default")->Unit(benchmark::kMillisecond);
 
 // OMP over the rows that are left of 69 with 30 % of the joints hidden, the same
 // joints in every pose.
