@@ -25,9 +25,9 @@ constexpr double kMiddleSigma_m = 0.02;  // of a point between two joints
 
 Landmark Joint(std::string_view name, int joint) { return {name, {{joint, 1.0}}}; }
 Landmark LeftOut(std::string_view name) { return {name, {}}; }
-Landmark Ear(std::string_view name, double out) {
+Landmark Ear(std::string_view name, int near_shoulder, int far_shoulder) {
   return {name,
-          {{kUpperNeck, 0.3}, {kHeadTop, 0.7}, {kLeftShoulder, out}, {kRightShoulder, -out}},
+          {{kUpperNeck, 0.3}, {kHeadTop, 0.7}, {near_shoulder, kEarOut}, {far_shoulder, -kEarOut}},
           kEarSigma_m};
 }
 Landmark Neck(std::string_view name) {
@@ -50,8 +50,9 @@ Layout Body15() {
 Layout Coco17() {
   return {
       "coco17",
-      {LeftOut("nose"), LeftOut("left_eye"), LeftOut("right_eye"), Ear("left_ear", kEarOut),
-       Ear("right_ear", -kEarOut), Joint("left_shoulder", kLeftShoulder),
+      {LeftOut("nose"), LeftOut("left_eye"), LeftOut("right_eye"),
+       Ear("left_ear", kLeftShoulder, kRightShoulder),
+       Ear("right_ear", kRightShoulder, kLeftShoulder), Joint("left_shoulder", kLeftShoulder),
        Joint("right_shoulder", kRightShoulder), Joint("left_elbow", kLeftElbow),
        Joint("right_elbow", kRightElbow), Joint("left_wrist", kLeftHand),
        Joint("right_wrist", kRightHand), Joint("left_hip", kLeftHip), Joint("right_hip", kRightHip),
@@ -78,8 +79,8 @@ Layout OpenPose25() {
            Joint("left_ankle", kLeftAnkle),
            LeftOut("right_eye"),
            LeftOut("left_eye"),
-           Ear("right_ear", -kEarOut),
-           Ear("left_ear", kEarOut),
+           Ear("right_ear", kRightShoulder, kLeftShoulder),
+           Ear("left_ear", kLeftShoulder, kRightShoulder),
            Foot("left_big_toe", kLeftFoot),
            Foot("left_small_toe", kLeftFoot),
            LeftOut("left_heel"),
@@ -89,15 +90,16 @@ Layout OpenPose25() {
 }
 
 Layout OpenPose18() {
-  return {"openpose18",
-          {LeftOut("nose"), Neck("neck"), Joint("right_shoulder", kRightShoulder),
-           Joint("right_elbow", kRightElbow), Joint("right_wrist", kRightHand),
-           Joint("left_shoulder", kLeftShoulder), Joint("left_elbow", kLeftElbow),
-           Joint("left_wrist", kLeftHand), Joint("right_hip", kRightHip),
-           Joint("right_knee", kRightKnee), Joint("right_ankle", kRightAnkle),
-           Joint("left_hip", kLeftHip), Joint("left_knee", kLeftKnee),
-           Joint("left_ankle", kLeftAnkle), LeftOut("right_eye"), LeftOut("left_eye"),
-           Ear("right_ear", -kEarOut), Ear("left_ear", kEarOut)}};
+  return {
+      "openpose18",
+      {LeftOut("nose"), Neck("neck"), Joint("right_shoulder", kRightShoulder),
+       Joint("right_elbow", kRightElbow), Joint("right_wrist", kRightHand),
+       Joint("left_shoulder", kLeftShoulder), Joint("left_elbow", kLeftElbow),
+       Joint("left_wrist", kLeftHand), Joint("right_hip", kRightHip),
+       Joint("right_knee", kRightKnee), Joint("right_ankle", kRightAnkle),
+       Joint("left_hip", kLeftHip), Joint("left_knee", kLeftKnee), Joint("left_ankle", kLeftAnkle),
+       LeftOut("right_eye"), LeftOut("left_eye"), Ear("right_ear", kRightShoulder, kLeftShoulder),
+       Ear("left_ear", kLeftShoulder, kRightShoulder)}};
 }
 
 Layout Joints23() {
