@@ -48,8 +48,9 @@ void WritePictures(const std::filesystem::path& image, const FrameLabels& frame,
   WritePng(out_dir / (name + ".overlay.png"), DrawOverlay(ReadImage(image), overlay));
   for (const LiftResult& result : results) {
     if (!result.IsUsable()) continue;
-    PoseViewInput view{.joints_in_cam_m = result.poses.front().joints_in_cam_m,
-                       .title = fmt::format("{}   {}", name, result.BriefReport())};
+    PoseViewInput view{
+        .joints_in_cam_m = result.poses.front().joints_in_cam_m,
+        .title = fmt::format("{}: {:.1f} px RMS", name, result.poses.front().reprojection_rms_px)};
     for (size_t i = 1; i < result.poses.size(); ++i)
       view.alternatives_in_cam_m.push_back(result.poses[i].joints_in_cam_m);
     WritePng(out_dir / (name + ".view.png"), DrawPoseView(view));
