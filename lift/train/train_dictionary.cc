@@ -125,4 +125,22 @@ Eigen::MatrixXd TrainAtoms(const Eigen::MatrixXd& poses, const TrainOptions& opt
   return joined;
 }
 
+Dictionary TrainDictionary(const TrainingPoses& loaded, bool mirrored, const TrainOptions& options,
+                           const ProgressFn& progress, TrainReport* report) {
+  const Eigen::MatrixXd poses_m = mirrored ? WithMirrored(loaded.poses_m) : loaded.poses_m;
+  Dictionary dictionary;
+  dictionary.atoms = TrainAtoms(poses_m, options, progress, report);
+  dictionary.skeleton = loaded.standard;
+  dictionary.typical_norm_m = poses_m.colwise().norm().mean();
+  dictionary.prior = LearnPosePrior(poses_m);
+  dictionary.record = {.sources = loaded.files,
+                       .num_poses = poses_m.cols(),
+                       .mirrored = mirrored,
+                       .sparsity = options.ksvd.sparsity,
+                       .num_subsets = options.num_subsets,
+                       .seed = options.seed,
+                       .rms_error_mm = 1e3 * report->rms_error_m};
+  return dictionary;
+}
+
 }  // namespace poselift

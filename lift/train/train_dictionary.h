@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "lift/dictionary.h"
 #include "lift/train/ksvd.h"
+#include "lift/train/training_poses.h"
 #include "src/progress.h"
 
 namespace poselift {
@@ -45,6 +47,12 @@ struct TrainReport {
 
 // The same poses, options and seed give the same atoms, whatever the threads.
 Eigen::MatrixXd TrainAtoms(const Eigen::MatrixXd& poses, const TrainOptions& options,
+                           const ProgressFn& progress, TrainReport* report);
+
+// The whole dictionary of loaded poses, with mirrored also of their left-right
+// mirror images: atoms, standard skeleton, prior, and the record of the training
+// but for the command and the commit, which the caller knows.
+Dictionary TrainDictionary(const TrainingPoses& loaded, bool mirrored, const TrainOptions& options,
                            const ProgressFn& progress, TrainReport* report);
 
 // The size rule alone: how many of the poses, in their order in `drawn`, must be

@@ -35,19 +35,6 @@ struct Options {
   int exemplars = 10000;
 };
 
-// The dictionary of the training subjects, on their standard skeleton.
-Dictionary Learn(const TrainingPoses& loaded, const Options& options) {
-  const Eigen::MatrixXd poses = WithMirrored(loaded.poses_m);
-  Progress progress("train", poses.cols(), "poses");
-  TrainReport report;
-  Dictionary dictionary;
-  dictionary.atoms = TrainAtoms(poses, options.train, progress.Callback(), &report);
-  dictionary.skeleton = loaded.standard;
-  dictionary.typical_norm_m = poses.colwise().norm().mean();
-  dictionary.prior = LearnPosePrior(poses);
-  return dictionary;
-}
-
 LiftMethod CodeOnly(std::string name, const Dictionary& dictionary, const LifterOptions& options) {
   auto lifter = std::make_shared<Lifter>(dictionary, options);
   const Eigen::VectorXd lengths_m = BoneLengths(dictionary.skeleton);
@@ -126,7 +113,10 @@ int EvaluateLifts(const Options& options) {
   };
   const TrainingPoses train = load(options.train_subjects, false);
   const TrainingPoses test = load(options.test_subjects, true);
-  const Dictionary dictionary = Learn(train, options);
+  Progress training("train", train.poses_m.cols(), "frames");
+  TrainReport report;
+  const Dictionary dictionary =
+      TrainDictionary(train, /*mirrored=*/true, options.train, training.Callback(), &report);
   const std::vector<LiftMethod> methods = {
       CodeOnly("paper, one start", dictionary, FindMethod("paper-one-start").lifter),
       CodeOnly("paper, several starts", dictionary, FindMethod("paper").lifter),

@@ -86,27 +86,16 @@ std::string Command(const Options& options) {
 }
 
 int Train(const Options& options) {
-  Dictionary dictionary;
   const auto sources = FindMotions(options.mocap, options.choice);
   Progress reading("read", static_cast<int64_t>(sources.size()), "files");
-  TrainingPoses poses = LoadPoses(sources, options.load, reading.Callback());
-  if (!options.no_mirror) poses.poses_m = WithMirrored(poses.poses_m);
+  const TrainingPoses poses = LoadPoses(sources, options.load, reading.Callback());
 
   TrainReport report;
-  Progress training("train", poses.poses_m.cols(), "poses");
-  dictionary.atoms = TrainAtoms(poses.poses_m, options.train, training.Callback(), &report);
-  dictionary.skeleton = poses.standard;
-  dictionary.typical_norm_m = poses.poses_m.colwise().norm().mean();
-  dictionary.prior = LearnPosePrior(poses.poses_m);
-  dictionary.record = {.sources = poses.files,
-                       .command = Command(options),
-                       .commit = POSELIFT_COMMIT,
-                       .num_poses = poses.poses_m.cols(),
-                       .mirrored = !options.no_mirror,
-                       .sparsity = options.train.ksvd.sparsity,
-                       .num_subsets = options.train.num_subsets,
-                       .seed = options.train.seed,
-                       .rms_error_mm = 1e3 * report.rms_error_m};
+  Progress training("train", poses.poses_m.cols(), "frames");
+  Dictionary dictionary =
+      TrainDictionary(poses, !options.no_mirror, options.train, training.Callback(), &report);
+  dictionary.record.command = Command(options);
+  dictionary.record.commit = POSELIFT_COMMIT;
   WriteDictionary(dictionary, options.out);
   Print(report, dictionary);
   if (!options.json.empty())
