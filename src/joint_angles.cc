@@ -118,7 +118,7 @@ Eigen::Matrix3d AxisRotation(int axis, double angle) {
 // each the nearest to its previous value.
 Eigen::Vector3d EulerAngles(const Eigen::Matrix3d& D, const std::array<int, 3>& axes,
                             bool either_branch, const Eigen::Vector3d& previous) {
-  const auto [i, j, k] = axes;
+  const int i = axes[0], j = axes[1], k = axes[2];
   const double parity = (i + 1) % 3 == j ? 1.0 : -1.0;
   const auto solve = [&](double a) {
     // With a given, the other two are well-conditioned everywhere.
@@ -133,7 +133,7 @@ Eigen::Vector3d EulerAngles(const Eigen::Matrix3d& D, const std::array<int, 3>& 
   // In gimbal lock any a is an answer: the previous one.
   if (std::hypot(D(j, k), D(k, k)) < kGimbalLock) return solve(previous[i]);
   const double a = std::atan2(-parity * D(j, k), D(k, k));
-  const Eigen::Vector3d answer = solve(a);
+  Eigen::Vector3d answer = solve(a);
   if (!either_branch) return answer;
   const Eigen::Vector3d other = solve(a + kTurn_rad / 2);
   return (other - previous).norm() < (answer - previous).norm() ? other : answer;
@@ -183,7 +183,7 @@ int FindBoneOrThrow(const Skeleton& skeleton, const std::string& name) {
 Eigen::Matrix3d Hanging(const Skeleton& skeleton, const std::string& bone,
                         const std::string& hinge_bone, double hinge_sign) {
   const Eigen::Vector3d along = skeleton.bones[FindBoneOrThrow(skeleton, bone)].tip_m;
-  const Eigen::Matrix3d down =
+  Eigen::Matrix3d down =
       Eigen::Quaterniond::FromTwoVectors(along, -Eigen::Vector3d::UnitY()).toRotationMatrix();
   if (hinge_bone.empty()) return down;
   const Bone& hinge = skeleton.bones[FindBoneOrThrow(skeleton, hinge_bone)];

@@ -124,7 +124,7 @@ void InverseKinematics::CheckSizes(const Pose3& target_in_world_m, const IkHints
 SkeletonPose InverseKinematics::Start(const Pose3& target_m, const Eigen::VectorXd& weights,
                                       const DofSprings& springs, const IkHints& hints) const {
   const Eigen::VectorXd& from_dofs = hints.start ? hints.start->dofs : springs.rest;
-  const SkeletonPose found = initial_pose_.Find(body_, limits_, target_m, weights, from_dofs);
+  SkeletonPose found = initial_pose_.Find(body_, limits_, target_m, weights, from_dofs);
   if (!hints.start) return found;
   const double found_m2 =
       weights.dot(SquaredDistances(JointPositions(body_, found), target_m, weights));

@@ -78,10 +78,10 @@ cv::Mat GridCanvas(const cv::Size& size, double out_from_px) {
   double step_px = 10.0 * out_from_px;
   for (int i = 0; step_px < std::max(size.width, size.height) / 16.0; ++i)
     step_px *= i % 2 == 0 ? 5.0 : 2.0;
-  for (double x = step_px; x < size.width; x += step_px)
-    DrawLine(&canvas, {x, 0.0}, {x, size.height * 1.0}, {144, 142, 140}, 1.5);
-  for (double y = step_px; y < size.height; y += step_px)
-    DrawLine(&canvas, {0.0, y}, {size.width * 1.0, y}, {144, 142, 140}, 1.5);
+  for (int i = 1; i * step_px < size.width; ++i)
+    DrawLine(&canvas, {i * step_px, 0.0}, {i * step_px, size.height * 1.0}, {144, 142, 140}, 1.5);
+  for (int i = 1; i * step_px < size.height; ++i)
+    DrawLine(&canvas, {0.0, i * step_px}, {size.width * 1.0, i * step_px}, {144, 142, 140}, 1.5);
   return canvas;
 }
 

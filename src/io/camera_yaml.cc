@@ -126,7 +126,7 @@ void SetMatrix(const TextScanner& scanner, const Numbers& matrix, Camera* camera
 void SetDistortion(const TextScanner& scanner, const Numbers& coefficients, Camera* camera) {
   std::vector<double> k = coefficients.values;
   while (k.size() > 8 && k.back() == 0) k.pop_back();
-  if (k.size() != 0 && k.size() != 4 && k.size() != 5 && k.size() != 8)
+  if (!k.empty() && k.size() != 4 && k.size() != 5 && k.size() != 8)
     scanner.FailAt(coefficients.line,
                    fmt::format("distortion_coefficients: found {} numbers, wanted 0, 4, 5 or 8 "
                                "(k1 k2 p1 p2 k3 k4 k5 k6)",

@@ -61,7 +61,7 @@ void CheckHead(const fs::path& path, std::string_view bytes) {
 cv::Mat Decoded(const std::string& bytes) {
   const QuietStderr quiet;  // a damaged picture is told by our own error
   const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8U,
-                       const_cast<char*>(bytes.data()));  // NOLINT: only read
+                       const_cast<char*>(bytes.data()));  // only read
   try {
     return cv::imdecode(buffer, cv::IMREAD_COLOR);
   } catch (const cv::Exception&) {

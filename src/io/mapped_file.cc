@@ -47,8 +47,6 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
   data_ = static_cast<const char*>(mapped);
 }
 
-MappedFile::~MappedFile() {
-  ::munmap(const_cast<char*>(data_), size_);
-}  // NOLINT: POSIX takes void*
+MappedFile::~MappedFile() { ::munmap(const_cast<char*>(data_), size_); }
 
 }  // namespace poselift
