@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 using testing::MatrixNear;
 
 Pose3 RandomPose(std::mt19937_64* rng, double size_m) {
-  std::normal_distribution<double> normal(0.0, size_m);
-  return Pose3::NullaryExpr(3, kNumJoints, [&] { return normal(*rng); });
+  std::normal_distribution<double> normal;
+  return Pose3::NullaryExpr(3, kNumJoints, [&] { return size_m * normal(*rng); });
 }
 
 Vector3d RandomUp(std::mt19937_64* rng) {

@@ -16,7 +16,8 @@ size_t Below(size_t bound, std::mt19937_64* rng) {
 }
 
 void Damage(std::string* text, std::mt19937_64* rng) {
-  constexpr std::string_view kTelling("[]{}:,-\"\\ \n\t0e9%!&*#\0\xff", 23);
+  using namespace std::string_view_literals;
+  constexpr std::string_view kTelling = "[]{}:,-\"\\ \n\t0e9%!&*#\0\xff"sv;
   if (text->empty()) return;
   const size_t at = Below(text->size(), rng);
   const size_t length = 1 + Below(20, rng);
