@@ -37,7 +37,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 enum class Seen { kPicture, kMaskedPicture, kMaskedSpace, kMixture };
 
 Observation Observe(const PlantedPose& planted, Seen seen, std::mt19937_64* rng) {
-  const Observation picture = ObserveInPicture(planted, 2.0);
+  Observation picture = ObserveInPicture(planted, 2.0);
   Observation space = ObserveInSpace(planted, 0.01);
   switch (seen) {
     case Seen::kPicture:

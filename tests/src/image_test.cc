@@ -52,7 +52,7 @@ std::string JpegWithOrientation(char orientation) {
 }
 
 bool IsRed(const cv::Mat& image, int x, int y) {
-  const auto bgr = image.at<cv::Vec3b>(y, x);
+  const auto& bgr = image.at<cv::Vec3b>(y, x);
   return bgr[2] > 180 && bgr[0] < 80;
 }
 

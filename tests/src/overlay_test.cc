@@ -49,8 +49,8 @@ double BlueTurn(const cv::Mat& canvas, const Vector2d& center, double reach_px) 
   for (int degree = 0; degree < 360; ++degree) {
     const Vector2d along(std::cos(degree * M_PI / 180), std::sin(degree * M_PI / 180));
     bool found = false;
-    for (double r = 2.0; r < reach_px; r += 0.5)
-      found = found || IsLeftBlue(At(canvas, center + r * along));
+    for (int half_px = 4; half_px < 2 * reach_px; ++half_px)
+      found = found || IsLeftBlue(At(canvas, center + 0.5 * half_px * along));
     blue += found;
   }
   return blue / 360.0;

@@ -64,7 +64,7 @@ Count CountColour(const cv::Mat& sheet, int panel, bool is_left) {
   Count count;
   for (int y = 0; y < kPanel_px; ++y) {
     for (int x = 0; x < kPanel_px; ++x) {
-      const auto bgr = sheet.at<cv::Vec3b>(top + y, panel % 2 * kPanel_px + x);
+      const auto& bgr = sheet.at<cv::Vec3b>(top + y, panel % 2 * kPanel_px + x);
       if (!(is_left ? IsLeftBlue(bgr) : IsRightOrange(bgr))) continue;
       ++count.pixels;
       count.x_px += x;
@@ -136,7 +136,7 @@ TEST(PoseView, FigureStaysInsideItsPanels) {
     const int header_px = sheet.rows - 2 * kPanel_px;
     for (const int x : {2, kPanel_px - 3, kPanel_px + 2, 2 * kPanel_px - 3}) {
       for (int y = header_px; y < sheet.rows; ++y) {
-        const auto bgr = sheet.at<cv::Vec3b>(y, x);
+        const auto& bgr = sheet.at<cv::Vec3b>(y, x);
         EXPECT_LT(std::abs(bgr[0] - bgr[2]), 50) << x << " " << y;
       }
     }

@@ -39,4 +39,4 @@ std::string WriteScratch(const std::string& name, const std::string& text);
 #define POSELIFT_DATA_OR_SKIP(variable)                                                 \
   const auto variable##_or_none = ::poselift::testing::DataDir();                       \
   if (!variable##_or_none) GTEST_SKIP() << "real data absent: set POSELIFT_DATA to it"; \
-  const std::filesystem::path variable = *variable##_or_none
+  const std::filesystem::path& variable = *variable##_or_none

@@ -203,7 +203,7 @@ TEST(BrokenInput, FoldersWithoutWhatIsWantedAreRefused) {
 // Their frames cannot stand in one table.
 TEST(BrokenInput, TrainRefusesSkeletonsThatDoNotFit) {
   const std::string asf = WriteMotionFiles().asf;
-  const std::string train = kMotionCommands.back();
+  const std::string& train = kMotionCommands.back();
   WriteScratch("02.asf", std::string(testing::kMadeUpAsf));
   WriteScratch("02_01.amc", "1\nroot 0 0 0 0 0 0\nltibia 1\n");
   ExpectRefusal(train, "02.asf: made_up: found no bone");
