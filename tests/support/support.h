@@ -9,6 +9,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 
 namespace poselift::testing {
 
@@ -37,6 +38,6 @@ std::string WriteScratch(const std::string& name, const std::string& text);
 
 // Ends the test with a clear line when the real data is absent.
 #define POSELIFT_DATA_OR_SKIP(variable)                                                 \
-  const auto variable##_or_none = ::poselift::testing::DataDir();                       \
+  auto variable##_or_none = ::poselift::testing::DataDir();                             \
   if (!variable##_or_none) GTEST_SKIP() << "real data absent: set POSELIFT_DATA to it"; \
-  const std::filesystem::path& variable = *variable##_or_none
+  const std::filesystem::path variable = std::move(*variable##_or_none)
