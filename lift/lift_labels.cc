@@ -19,14 +19,24 @@ SkeletonPose InWorld(const SkeletonPose& pose_in_cam) {
   return pose;
 }
 
-PersonLabels WithoutDistortion(PersonLabels labels, const Camera& camera) {
+// As a pinhole camera with square pixels would have taken the picture.
+PersonLabels WithoutDistortion(PersonLabels labels, const Camera& camera, const Pinhole& pinhole) {
   for (LandmarkLabel& label : labels.landmarks) {
     if (label.state == LabelState::kAbsent) continue;
     const Eigen::Vector3d ray = camera.Undistort(label.x_px);
-    label.x_px << camera.fx_px * ray.x() + camera.cx_px, camera.fy_px * ray.y() + camera.cy_px;
+    label.x_px = pinhole.centre_px + pinhole.focal_px * ray.head<2>();
     if (!label.x_px.allFinite()) label = {label.name, Eigen::Vector2d::Zero(), LabelState::kAbsent};
   }
   return labels;
+}
+
+Observation ObserveThrough(const std::optional<Camera>& camera, const PersonLabels& person,
+                           const Layout& layout) {
+  if (!camera) return Observe(person, layout);
+  const Pinhole pinhole{camera->fx_px, {camera->cx_px, camera->cy_px}};
+  Observation observation = Observe(WithoutDistortion(person, *camera, pinhole), layout);
+  observation.pinhole = pinhole;
+  return observation;
 }
 
 const char* StatusName(LiftStatus status) {
@@ -63,6 +73,7 @@ PersonPose ToPersonPose(const LiftResult& result, const Observation& observation
   person.joints_in_cam_m = best.joints_in_cam_m;
   person.scale_px_per_m = best.camera.scale_px_per_m;
   person.translation_px = best.camera.translation_px;
+  person.pelvis_in_cam_m = best.pelvis_in_cam_m;
   person.rotation_cam_from_body = Eigen::Quaterniond(best.camera.cam_from_body);
   person.angles_deg = NamedAngles(skeleton, best.pose);
   person.reprojection_rms_px = best.reprojection_rms_px;
@@ -94,8 +105,7 @@ LiftedLabels LiftLabels(const PhotoLifter& lifter, const Labels& labels,
     poses.image = frame.image;
     poses.time_s = frame.time_s;
     for (const PersonLabels& person : frame.people) {
-      const Observation observation =
-          Observe(camera ? WithoutDistortion(person, *camera) : person, layout);
+      const Observation observation = ObserveThrough(camera, person, layout);
       LiftResult result = lifter.LiftPhoto(observation);
       poses.people.push_back(
           ToPersonPose(result, observation, person.id, lifter.dictionary().skeleton));

@@ -8,15 +8,10 @@
 #include <cmath>
 
 #include "lift/normalize.h"
+#include "lift/perspective.h"
 
 namespace poselift {
 namespace {
-
-Eigen::Vector3d PointInCam_m(const ObservedPoint& point, const Pose3& joints_in_cam_m) {
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();
-  for (const auto& [joint, weight] : point.parts) x += weight * joints_in_cam_m.col(joint);
-  return x;
-}
 
 // The shift of the body that suits the 3D points best.
 Eigen::Vector3d MeanShift_m(const Observation& observation, const Pose3& joints_in_cam_m) {
@@ -25,7 +20,7 @@ Eigen::Vector3d MeanShift_m(const Observation& observation, const Pose3& joints_
   for (const ObservedPoint& point : observation.points) {
     if (point.kind != ObservedPoint::Kind::k3D) continue;
     const double weight = 1.0 / (point.sigma * point.sigma);
-    sum += weight * (point.x - PointInCam_m(point, joints_in_cam_m));
+    sum += weight * (point.x - SumOfJoints(point.parts, joints_in_cam_m));
     weights += weight;
   }
   return weights > 0.0 ? Eigen::Vector3d(sum / weights) : sum;
@@ -37,10 +32,14 @@ void MeasureErrors(const Observation& observation, LiftedPose* lifted) {
   double squared_px = 0.0;
   for (size_t i = 0; i < observation.points.size(); ++i) {
     const ObservedPoint& point = observation.points[i];
-    const Eigen::Vector3d x_in_cam_m = PointInCam_m(point, lifted->joints_in_cam_m);
+    const Eigen::Vector3d x_in_cam_m = SumOfJoints(point.parts, lifted->joints_in_cam_m);
     double error = (x_in_cam_m + shift_m - point.x).norm();
     if (point.kind == ObservedPoint::Kind::k2D) {
-      error = (lifted->camera.Project(x_in_cam_m) - point.x.head<2>()).norm();
+      const Eigen::Vector2d x_px =
+          observation.pinhole
+              ? ProjectInPerspective(*observation.pinhole, lifted->camera, x_in_cam_m)
+              : lifted->camera.Project(x_in_cam_m);
+      error = (x_px - point.x.head<2>()).norm();
       squared_px += error * error;
     }
     lifted->point_errors[static_cast<Eigen::Index>(i)] = error;
@@ -54,6 +53,9 @@ void MeasureErrors(const Observation& observation, LiftedPose* lifted) {
 std::string LiftPhotoOptions::Validate() const {
   for (const std::string& error : {lifter.Validate(), refinement.Validate()})
     if (!error.empty()) return error;
+  if (perspective_rounds < 0)
+    return fmt::format("LiftPhotoOptions::perspective_rounds = {}, wanted at least 0",
+                       perspective_rounds);
   if (max_solutions < 1)
     return fmt::format("LiftPhotoOptions::max_solutions = {}, wanted at least 1", max_solutions);
   return "";
@@ -70,7 +72,7 @@ PhotoLifter::PhotoLifter(const Dictionary& dictionary, const LiftPhotoOptions& o
     : dictionary_(dictionary),
       options_(options),
       lifter_(dictionary, options.lifter),
-      refinement_(dictionary.skeleton, options.refinement),
+      refinement_(dictionary.skeleton, options.refinement, dictionary.prior),
       bone_lengths_m_(BoneLengths(dictionary.skeleton)) {}
 
 LiftResult PhotoLifter::LiftPhoto(const Observation& observation) const {
@@ -80,11 +82,17 @@ LiftResult PhotoLifter::LiftPhoto(const Observation& observation) const {
     result.message = reason;
     return result;
   }
+  const bool in_perspective =
+      observation.pinhole && observation.Count(ObservedPoint::Kind::k2D) > 0;
   const std::vector<LiftSolution> solutions = lifter_.Solve(observation);  // (P1)
   for (const LiftSolution& solution : solutions) {
     if (static_cast<int>(result.poses.size()) == options_.max_solutions) break;
-    LiftedPose lifted = Finish(solution, observation);  // Algorithm 1, (P2), (P0)
-    if (lifted.cost >= 0.0) result.poses.push_back(std::move(lifted));
+    std::optional<LiftedPose> lifted =
+        in_perspective ? FinishInPerspective(solution, observation) : Finish(solution, observation);
+    if (!lifted) continue;
+    MeasureErrors(observation, &*lifted);
+    lifted->cost = Cost(*lifted, observation);
+    result.poses.push_back(std::move(*lifted));
   }
   std::stable_sort(result.poses.begin(), result.poses.end(),
                    [](const LiftedPose& a, const LiftedPose& b) { return a.cost < b.cost; });
@@ -93,19 +101,34 @@ LiftResult PhotoLifter::LiftPhoto(const Observation& observation) const {
   return result;
 }
 
-LiftedPose PhotoLifter::Finish(const LiftSolution& solution, const Observation& observation) const {
+std::optional<LiftedPose> PhotoLifter::Finish(const LiftSolution& solution,
+                                              const Observation& observation) const {
   const Pose3 pose_in_cam = CamFromBody(solution.tau_rad) * Unstacked(solution.pose_in_body_m);
   const Pose3 normalized_m = NormalizePose(pose_in_cam, bone_lengths_m_);
   const RefinementResult refined = refinement_.Solve(normalized_m, observation);
+  if (!IsUsable(refined.status)) return std::nullopt;
   LiftedPose lifted;
-  if (!IsUsable(refined.status)) return lifted;
   lifted.pose = refined.pose;
   lifted.joints_in_cam_m = refined.joints_in_cam_m;
   lifted.camera = refined.camera;
   if (!refined.has_camera) lifted.camera.scale_px_per_m = 0.0;
   lifted.code = solution.code;
-  MeasureErrors(observation, &lifted);
-  lifted.cost = Cost(lifted, observation);
+  return lifted;
+}
+
+std::optional<LiftedPose> PhotoLifter::FinishInPerspective(const LiftSolution& solution,
+                                                           const Observation& observation) const {
+  std::optional<LiftedPose> lifted = Finish(solution, observation);
+  ViewStart start{solution.tau_rad, solution.scale_px_per_m * dictionary_.typical_norm_m};
+  for (int i = 0; i < options_.perspective_rounds && lifted; ++i) {
+    const Observation weak =
+        AsWeakPerspective(observation, lifted->joints_in_cam_m, lifted->camera);
+    const std::vector<LiftSolution> closer = lifter_.SolveFrom(weak, {start});
+    if (closer.empty()) break;
+    start.tau_rad = closer.front().tau_rad;
+    lifted = Finish(closer.front(), weak);
+  }
+  if (lifted) lifted->pelvis_in_cam_m = PelvisInCam_m(*observation.pinhole, lifted->camera);
   return lifted;
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,9 @@ struct LiftPhotoOptions {
   LifterOptions lifter;
   RefinementOptions refinement;
   int max_solutions = 4;  // distinct poses that are carried to the end
+  // How often the points are set right for the depths found last, where the
+  // camera is known.
+  int perspective_rounds = 3;
 
   std::string Validate() const;
 };
@@ -30,7 +35,10 @@ struct LiftedPose {
   SkeletonPose pose;      // joint angles; its world is cam, the root at the origin
   Pose3 joints_in_cam_m;  // 3 x 23, pelvis at the origin, bone lengths of the skeleton
   WeakCamera camera;      // scale 0 without 2D points
-  SparseCode code;        // x: metres
+  // Where a known camera (Observation::pinhole) has the pelvis, at the size of
+  // the skeleton; NaN without one.
+  Eigen::Vector3d pelvis_in_cam_m = Eigen::Vector3d::Constant(std::nan(""));
+  SparseCode code;  // x: metres
   // What is left to explain, in squared standard deviations: the points', the
   // pose's and the rotation's.
   double cost = -1.0;
@@ -49,7 +57,8 @@ struct LiftResult {
   std::string BriefReport() const;
 };
 
-// From the observed points of one person to poses with joint angles.
+// From the observed points of one person to poses with joint angles; in true
+// perspective where the camera is known, else in weak perspective.
 class PhotoLifter {
  public:
   // The dictionary must outlive the lifter. Throws std::invalid_argument when
@@ -62,7 +71,11 @@ class PhotoLifter {
   const Dictionary& dictionary() const { return dictionary_; }
 
  private:
-  LiftedPose Finish(const LiftSolution& solution, const Observation& observation) const;
+  // Nothing when no pose of the skeleton fits.
+  std::optional<LiftedPose> Finish(const LiftSolution& solution,
+                                   const Observation& observation) const;
+  std::optional<LiftedPose> FinishInPerspective(const LiftSolution& solution,
+                                                const Observation& observation) const;
   double Cost(const LiftedPose& lifted, const Observation& observation) const;
 
   const Dictionary& dictionary_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/joints.h"
+#include "src/pose3.h"
 
 namespace poselift {
 
@@ -33,6 +34,13 @@ struct Layout {
 
   std::optional<int> Find(std::string_view landmark) const;
 };
+
+// Where a landmark is in a pose.
+inline Eigen::Vector3d SumOfJoints(const std::vector<Landmark::Part>& parts, const Pose3& joints) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Landmark::Part& part : parts) sum += part.weight * joints.col(part.joint);
+  return sum;
+}
 
 // body15, coco17, openpose25, openpose18, joints23. Null when there is none.
 const Layout* FindLayout(std::string_view name);

@@ -25,9 +25,17 @@ struct ObservedPoint {
   LabelState state = LabelState::kVisible;
 };
 
+// A camera without lens distortion: a point at (X, Y, Z) in cam is seen at
+// centre_px + focal_px (X, Y) / Z.
+struct Pinhole {
+  double focal_px = 0.0;
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
+};
+
 // All that is known about one person in one frame: what the lifter takes.
 struct Observation {
   std::vector<ObservedPoint> points;
+  std::optional<Pinhole> pinhole = std::nullopt;  // what took the picture, when it is known
 
   int Count(ObservedPoint::Kind kind) const;
 };

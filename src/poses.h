@@ -39,6 +39,8 @@ struct PersonPose {
   // Weak perspective: x_px = scale * (x, y) + translation.
   double scale_px_per_m = kUnknown;
   Eigen::Vector2d translation_px = Eigen::Vector2d::Constant(kUnknown);
+  // Where the pelvis is, metres; known when the camera is.
+  Eigen::Vector3d pelvis_in_cam_m = Eigen::Vector3d::Constant(kUnknown);
   Eigen::Quaterniond rotation_cam_from_body{kUnknown, kUnknown, kUnknown, kUnknown};
 
   std::vector<std::pair<std::string, double>> angles_deg;  // "left_elbow.flexion", degrees

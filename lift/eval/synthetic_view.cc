@@ -22,9 +22,7 @@ SyntheticView MakeView(const Pose3& joints_in_body_m, const Layout& layout, cons
   SyntheticView view;
   view.joints_in_cam_m = CamFromBody(tau_rad) * joints_in_body_m;
   for (const Landmark& landmark : layout.landmarks) {
-    Eigen::Vector3d x_in_cam_m = Eigen::Vector3d::Zero();
-    for (const auto& [joint, weight] : landmark.parts)
-      x_in_cam_m += weight * view.joints_in_cam_m.col(joint);
+    const Eigen::Vector3d x_in_cam_m = SumOfJoints(landmark.parts, view.joints_in_cam_m);
     const Eigen::Vector2d noise(normal(*rng), normal(*rng));
     view.labels.landmarks.push_back(
         {std::string(landmark.name), kScale_px_per_m * (x_in_cam_m.head<2>() + noise_m * noise)});

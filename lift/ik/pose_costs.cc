@@ -44,10 +44,9 @@ class ArticulatedCost : public ceres::CostFunction {
     pose_.dofs = Eigen::Map<const Eigen::VectorXd>(parameters[2], body_.num_dofs);
     ForwardKinematics(body_.skeleton, pose_, &frames_);
     const Pose3 joints_m = JointPositions(body_.sites, frames_);
-    posed_m_.setZero(3, points_.size());
+    posed_m_.resize(3, points_.size());
     for (size_t i = 0; i < points_.size(); ++i)
-      for (const Landmark::Part& part : points_[i].parts)
-        posed_m_.col(i) += part.weight * joints_m.col(part.joint);
+      posed_m_.col(i) = SumOfJoints(points_[i].parts, joints_m);
     if (with_jacobian) JointJacobian(body_.skeleton, body_.sites, pose_, frames_, &joint_jacobian_);
   }
 
@@ -151,6 +150,36 @@ class ReprojectionCost final : public ArticulatedCost {
   }
 };
 
+class PriorCost final : public ceres::CostFunction {
+ public:
+  PriorCost(const Articulation& body, const PosePrior& prior) : body_(body), prior_(prior) {
+    set_num_residuals(static_cast<int>(prior.whitening.rows()));
+    *mutable_parameter_block_sizes() = {body.num_dofs};
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    pose_.dofs = Eigen::Map<const Eigen::VectorXd>(parameters[0], body_.num_dofs);
+    ForwardKinematics(body_.skeleton, pose_, &frames_);
+    const Pose3 joints_m = JointPositions(body_.sites, frames_);
+    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()).noalias() =
+        prior_.whitening * (Stacked(joints_m) - prior_.mean_m);
+    if (!jacobians || !jacobians[0]) return true;
+    JointJacobian(body_.skeleton, body_.sites, pose_, frames_, &joint_jacobian_);
+    RowMajorMap(jacobians[0], num_residuals(), body_.num_dofs).noalias() =
+        prior_.whitening * joint_jacobian_.rightCols(body_.num_dofs);
+    return true;
+  }
+
+ private:
+  const Articulation& body_;
+  const PosePrior& prior_;
+  // Of the latest evaluation; the root stays at the origin.
+  mutable SkeletonPose pose_;
+  mutable BoneFrames frames_;
+  mutable Eigen::MatrixXd joint_jacobian_;
+};
+
 class SpringCost final : public ceres::CostFunction {
  public:
   explicit SpringCost(const DofSprings& springs) : springs_(springs) {
@@ -189,6 +218,11 @@ std::unique_ptr<ceres::CostFunction> MakeSpaceCost(const Articulation& body,
 std::unique_ptr<ceres::CostFunction> MakeReprojectionCost(const Articulation& body,
                                                           std::vector<TargetPoint> points) {
   return std::make_unique<ReprojectionCost>(body, std::move(points));
+}
+
+std::unique_ptr<ceres::CostFunction> MakePriorCost(const Articulation& body,
+                                                   const PosePrior& prior) {
+  return std::make_unique<PriorCost>(body, prior);
 }
 
 std::unique_ptr<ceres::CostFunction> MakeSpringCost(const DofSprings& springs) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lift/ik/articulation.h"
+#include "lift/pose_prior.h"
 #include "src/layout.h"
 
 namespace ceres {
@@ -45,6 +46,12 @@ std::unique_ptr<ceres::CostFunction> MakeSpaceCost(const Articulation& body,
 // perspective camera; the pose's world is `cam`.
 std::unique_ptr<ceres::CostFunction> MakeReprojectionCost(const Articulation& body,
                                                           std::vector<TargetPoint> points);
+
+// whitening (f_0(dofs) - mean), 69 rows: how uncommon the pose is to the prior,
+// which must outlive the cost. f_0: the joints with the root at rest (the body
+// frame), all 23. Its only parameter block is the dofs.
+std::unique_ptr<ceres::CostFunction> MakePriorCost(const Articulation& body,
+                                                   const PosePrior& prior);
 
 // A spring on each dof: weak within the limits, stiff outside.
 struct DofSprings {

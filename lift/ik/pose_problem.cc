@@ -75,6 +75,10 @@ void PoseProblem::AddCameraTerm(std::unique_ptr<ceres::CostFunction> term) {
                              camera_.data());
 }
 
+void PoseProblem::AddDofsTerm(std::unique_ptr<ceres::CostFunction> term) {
+  problem_->AddResidualBlock(term.release(), nullptr, pose_.dofs.data());
+}
+
 void PoseProblem::HoldRootPosition() {
   problem_->SetParameterBlockConstant(pose_.root_in_world_m.data());
 }

@@ -59,6 +59,7 @@ class PoseProblem {
   // Terms of root, rotation and dofs, and of the camera as well.
   void AddPoseTerm(std::unique_ptr<ceres::CostFunction> term);
   void AddCameraTerm(std::unique_ptr<ceres::CostFunction> term);
+  void AddDofsTerm(std::unique_ptr<ceres::CostFunction> term);
   // The root stays where the start has it.
   void HoldRootPosition();
 

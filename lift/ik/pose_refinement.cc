@@ -15,13 +15,13 @@
 namespace poselift {
 namespace {
 
-// As in inverse kinematics (0.1 m), for a prior of 5 cm.
+// As in inverse kinematics (0.1 m), for joints known to 5 cm.
 constexpr double kLimitStiffness_per_rad = 2.0;
 
 // A scale that falls by this factor (1e-4) falls to zero.
 constexpr double kLeastLogScale = -9.2;
 
-// The start needs no more accuracy than the prior has.
+// The start needs no more accuracy than the code has.
 IkOptions StartOptions(const RefinementOptions& options) {
   return {.enforce_limits = options.enforce_limits, .function_tolerance = 1e-2};
 }
@@ -42,10 +42,7 @@ std::vector<TargetPoint> PointsOfKind(const Observation& observation, ObservedPo
 }
 
 Eigen::Vector2d PosedPoint(const TargetPoint& point, const Pose3& joints_m) {
-  Eigen::Vector2d x_m = Eigen::Vector2d::Zero();
-  for (const Landmark::Part& part : point.parts)
-    x_m += part.weight * joints_m.col(part.joint).head<2>();
-  return x_m;
+  return SumOfJoints(point.parts, joints_m).head<2>();
 }
 
 // The weighted least-squares scale and translation of posed points. Where that
@@ -90,12 +87,12 @@ double ReprojectionRms_px(const std::vector<TargetPoint>& points, const Pose3& j
   return std::sqrt(sum_px2 / static_cast<double>(points.size()));
 }
 
-std::vector<TargetPoint> PriorPoints(const Pose3& prior_m, const JointSites& sites,
-                                     double gamma_per_m2) {
+std::vector<TargetPoint> CodePoints(const Pose3& code_m, const JointSites& sites,
+                                    double gamma_per_m2) {
   std::vector<TargetPoint> points;
   for (int j = 0; j < kNumJoints; ++j)
-    if (sites[j].bone >= 0 && prior_m.col(j).allFinite())
-      points.push_back({{{j, 1.0}}, prior_m.col(j), std::sqrt(gamma_per_m2)});
+    if (sites[j].bone >= 0 && code_m.col(j).allFinite())
+      points.push_back({{{j, 1.0}}, code_m.col(j), std::sqrt(gamma_per_m2)});
   return points;
 }
 
@@ -113,14 +110,14 @@ double Rms_m(const Pose3& a_m, const Pose3& b_m) {
 
 RefinementResult Report(const PoseProblemOutcome& outcome, const Articulation& body,
                         const SkeletonPose& pose, const Eigen::Vector3d& camera,
-                        const Pose3& prior_in_cam_m, const std::vector<TargetPoint>& seen_px) {
+                        const Pose3& code_in_cam_m, const std::vector<TargetPoint>& seen_px) {
   RefinementResult result;
   result.status = outcome.status;
   result.message = outcome.message;
   result.iterations = outcome.iterations;
   result.pose = pose;
   result.joints_in_cam_m = JointPositions(body, pose);
-  result.prior_rms_m = Rms_m(result.joints_in_cam_m, prior_in_cam_m);
+  result.code_rms_m = Rms_m(result.joints_in_cam_m, code_in_cam_m);
   result.camera.cam_from_body = pose.world_from_root.toRotationMatrix();
   result.has_camera = !seen_px.empty();
   if (!result.has_camera) return result;
@@ -142,6 +139,8 @@ RefinementResult Unusable(IkStatus status, std::string message) {
 std::string RefinementOptions::Validate() const {
   if (!(gamma_per_m2 >= 0.0 && std::isfinite(gamma_per_m2)))
     return fmt::format("RefinementOptions::gamma_per_m2 = {}, wanted >= 0", gamma_per_m2);
+  if (!(prior_weight >= 0.0 && std::isfinite(prior_weight)))
+    return fmt::format("RefinementOptions::prior_weight = {}, wanted >= 0", prior_weight);
   if (!(pull_per_rad > 0.0 && std::isfinite(pull_per_rad)))
     return fmt::format("RefinementOptions::pull_per_rad = {}, wanted > 0", pull_per_rad);
   if (max_iterations < 1)
@@ -155,26 +154,34 @@ std::string RefinementOptions::Validate() const {
 std::string RefinementResult::BriefReport() const {
   if (!IsUsable(status))
     return fmt::format("pose refinement: {}: {}", IkStatusName(status), message);
-  std::string report = fmt::format("pose refinement: {}, {} iterations, {:.1f} mm from the prior",
-                                   IkStatusName(status), iterations, 1e3 * prior_rms_m);
+  std::string report =
+      fmt::format("pose refinement: {}, {} iterations, {:.1f} mm from the code's pose",
+                  IkStatusName(status), iterations, 1e3 * code_rms_m);
   if (has_camera)
     report += fmt::format(", {:.2f} px from the labels, {:.1f} px per metre", reprojection_rms_px,
                           camera.scale_px_per_m);
   return report;
 }
 
-PoseRefinement::PoseRefinement(Skeleton skeleton, const RefinementOptions& options)
-    : start_ik_(std::move(skeleton), StartOptions(options)), options_(options) {
+PoseRefinement::PoseRefinement(Skeleton skeleton, const RefinementOptions& options, PosePrior prior)
+    : start_ik_(std::move(skeleton), StartOptions(options)),
+      prior_(std::move(prior)),
+      options_(options) {
   if (const std::string error = options.Validate(); !error.empty()) throw InputError(error);
+  if (prior_.Empty()) return;
+  for (const JointSite& site : start_ik_.body().sites)
+    if (site.bone < 0)
+      throw std::invalid_argument("pose refinement: a pose prior wants a skeleton with all joints");
+  prior_.whitening *= options.prior_weight;
 }
 
-RefinementResult PoseRefinement::Solve(const Pose3& prior_in_cam_m, const Observation& observation,
+RefinementResult PoseRefinement::Solve(const Pose3& code_in_cam_m, const Observation& observation,
                                        const std::optional<SkeletonPose>& start) const {
   const Articulation& body = start_ik_.body();
   const auto seen_px = PointsOfKind(observation, ObservedPoint::Kind::k2D, body.sites);
   const auto seen_m = PointsOfKind(observation, ObservedPoint::Kind::k3D, body.sites);
-  const IkResult first = start_ik_.Solve(prior_in_cam_m, {.start = start});
-  if (!IsUsable(first.status)) return Unusable(first.status, "the prior: " + first.message);
+  const IkResult first = start_ik_.Solve(code_in_cam_m, {.start = start});
+  if (!IsUsable(first.status)) return Unusable(first.status, "the code's pose: " + first.message);
   SkeletonPose start_in_cam = first.pose;
   start_in_cam.root_in_world_m.setZero();
 
@@ -188,14 +195,15 @@ RefinementResult PoseRefinement::Solve(const Pose3& prior_in_cam_m, const Observ
   problem.HoldRootPosition();
   if (options_.gamma_per_m2 > 0.0)
     problem.AddPoseTerm(
-        MakeSpaceCost(body, PriorPoints(prior_in_cam_m, body.sites, options_.gamma_per_m2), false));
+        MakeSpaceCost(body, CodePoints(code_in_cam_m, body.sites, options_.gamma_per_m2), false));
+  if (!prior_.Empty()) problem.AddDofsTerm(MakePriorCost(body, prior_));
   if (!seen_m.empty()) problem.AddPoseTerm(MakeSpaceCost(body, seen_m, true));
   double log_start_scale = 0.0;
   if (!seen_px.empty()) {
     const WeakCamera camera = FitCamera(seen_px, JointPositions(body, problem.pose()));
     if (!(camera.scale_px_per_m > 0.0 && std::isfinite(camera.scale_px_per_m)))
       return Unusable(IkStatus::kBadInput,
-                      "the 2D points, or the prior's, show no scale: they lie at one place, or "
+                      "the 2D points, or the code's, show no scale: they lie at one place, or "
                       "absurdly far apart");
     log_start_scale = std::log(camera.scale_px_per_m);
     problem.camera() << log_start_scale, camera.translation_px;
@@ -205,8 +213,9 @@ RefinementResult PoseRefinement::Solve(const Pose3& prior_in_cam_m, const Observ
       problem.Solve(options_.max_iterations, options_.function_tolerance);
   if (!IsUsable(outcome.status)) return Unusable(outcome.status, outcome.message);
   if (!seen_px.empty() && !(problem.camera()[0] - log_start_scale > kLeastLogScale))
-    return Unusable(IkStatus::kFailed, "the 2D points contradict the prior: the scale vanishes");
-  return Report(outcome, body, problem.pose(), problem.camera(), prior_in_cam_m, seen_px);
+    return Unusable(IkStatus::kFailed,
+                    "the 2D points contradict the code's pose: the scale vanishes");
+  return Report(outcome, body, problem.pose(), problem.camera(), code_in_cam_m, seen_px);
 }
 
 }  // namespace poselift

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "lift/ik/inverse_kinematics.h"
+#include "lift/pose_prior.h"
 #include "lift/weak_camera.h"
 #include "src/observation.h"
 #include "src/pose3.h"
@@ -14,9 +15,11 @@
 namespace poselift {
 
 struct RefinementOptions {
-  // gamma of Eq. (4): 1 / sigma^2 of a prior coordinate, here 13 cm. Large: the
-  // prior's pose; small: the labels.
-  double gamma_per_m2 = 60.0;
+  // gamma of Eq. (4): 1 / sigma^2 of a coordinate of A x, here 18 cm. Large:
+  // the code's pose; small: the labels.
+  double gamma_per_m2 = 30.0;
+  // How much the pose prior counts; 1: as much as one that is exactly true.
+  double prior_weight = 0.4;
   // What one radian from rest weighs beside the other terms, in standard
   // deviations: see IkOptions::pull_m_per_rad.
   double pull_per_rad = 0.02;
@@ -38,7 +41,7 @@ struct RefinementResult {
   WeakCamera camera;        // cam_from_body is the pose's root rotation
   bool has_camera = false;  // false without 2D points: scale and translation unknown
   int iterations = 0;
-  double prior_rms_m = -1.0;          // f(q) to the prior
+  double code_rms_m = -1.0;           // f(q) to A x
   double reprojection_rms_px = -1.0;  // f(q) to the 2D points; -1 without any
 
   std::string BriefReport() const;
@@ -46,31 +49,37 @@ struct RefinementResult {
 
 // The pose synthesis problem (P0), Eq. (4), for a fixed code x, over the pose
 // q (root rotation and dofs), the scale s and the translation t:
-//   min  gamma |y - f(q)|^2                                     prior y = A x
+//   min  gamma |y - f(q)|^2                                     the code's y = A x
+//      + prior_weight^2 |whitening (f_0(dofs) - mean)|^2        the pose prior
 //      + sum_i |s (m_i f(q))_xy + t - x_i_px|^2 / sigma_i^2     2D points
 //      + sum_k |m_k f(q) + u - x_k_m|^2 / sigma_k^2             3D points
 //      + the weak pull of the dofs to rest,   lower <= dofs <= upper, s > 0.
-// f has the skeleton's bone lengths, so that these hold exactly while labels
-// and prior are traded off. s multiplies the camera and not, as printed, the
-// pose: y is in metres. log s is optimised; u, the best shift of the 3D
-// points, is eliminated.
+// f has the skeleton's bone lengths, so that these hold exactly while labels,
+// code and prior are traded off. f_0 is f with the root at rest. The code is
+// one point and says nothing of how far off it may be in which direction: the
+// prior does, which keeps noise of the labels out of the depth. s multiplies the camera and not, as
+// printed, the pose: y is in metres. log s is optimised; u, the best shift of the 3D points, is
+// eliminated.
 class PoseRefinement {
  public:
-  // Throws InputError when the options are invalid or the skeleton has no dofs.
-  explicit PoseRefinement(Skeleton skeleton, const RefinementOptions& options = {});
+  // Throws InputError when the options are invalid or the skeleton has no dofs,
+  // std::invalid_argument when there is a prior and not every joint it is about.
+  explicit PoseRefinement(Skeleton skeleton, const RefinementOptions& options = {},
+                          PosePrior prior = {});
 
-  // prior_in_cam_m: 3 x 23, pelvis at the origin, already turned into cam (x
+  // code_in_cam_m: 3 x 23, pelvis at the origin, already turned into cam (x
   // right, y down, z forward); NaN = no such joint, at least three must be
   // there. Inverse kinematics on it, from `start` if given (a pose in cam), is
   // where the search starts. The observation may lack either kind; 2D points
   // must be two or more, not all at one place. Points that need a joint the
   // skeleton lacks, or are not finite, are left out. Several threads may call
   // at once. Wrong sizes and sigmas throw std::invalid_argument.
-  RefinementResult Solve(const Pose3& prior_in_cam_m, const Observation& observation,
+  RefinementResult Solve(const Pose3& code_in_cam_m, const Observation& observation,
                          const std::optional<SkeletonPose>& start = std::nullopt) const;
 
  private:
   InverseKinematics start_ik_;
+  PosePrior prior_;
   RefinementOptions options_;
 };
 

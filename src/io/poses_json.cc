@@ -108,6 +108,7 @@ void AppendPerson(const PersonPose& person, std::string* out) {
   AppendJoints(person.joints_in_cam_m, out);
   object.Number("scale_px_per_m", person.scale_px_per_m, kMetreDecimals);
   object.Numbers("translation_px", person.translation_px, kPixelDecimals);
+  object.Numbers("pelvis_in_cam", person.pelvis_in_cam_m, kMetreDecimals);
   const Eigen::Quaterniond& q = person.rotation_cam_from_body;
   object.Numbers("rotation_cam_from_body", Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()),
                  kQuaternionDecimals);
@@ -193,6 +194,8 @@ PersonPose ReadPerson(const JsonValue& json) {
   person.scale_px_per_m = ReadNumberOrUnknown(json, "scale_px_per_m");
   if (const JsonValue* translation = json.Find("translation_px"))
     person.translation_px = ReadNumbers<2>(*translation);
+  if (const JsonValue* pelvis = json.Find("pelvis_in_cam"))
+    person.pelvis_in_cam_m = ReadNumbers<3>(*pelvis);
   if (const JsonValue* rotation = json.Find("rotation_cam_from_body"))
     person.rotation_cam_from_body = ReadRotation(*rotation);
   if (const JsonValue* angles = json.Find("angles_deg")) person.angles_deg = ReadNamed(*angles);

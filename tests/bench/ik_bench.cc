@@ -51,7 +51,7 @@ void RefinePose(benchmark::State& state) {
   for (auto _ : state) {
     const RefinementResult result =
         refinement.Solve(targets[i % targets.size()], seen[i % targets.size()]);
-    benchmark::DoNotOptimize(result.prior_rms_m);
+    benchmark::DoNotOptimize(result.code_rms_m);
     ++i;
   }
   state.SetItemsProcessed(state.iterations());

@@ -65,12 +65,14 @@ void WriteResults(const LiftedLabels& lifted, const Labels& labels, const Skelet
   WriteMotion(motion, out / "poses.amc");
 }
 
-void WriteAllPictures(const LiftedLabels& lifted, const LiftInputs& inputs, const fs::path& out) {
+void WriteAllPictures(const LiftedLabels& lifted, const LiftInputs& inputs,
+                      const std::optional<Camera>& camera, const fs::path& out) {
   const Layout& layout = *FindLayout(inputs.labels.layout);
   Progress progress("draw", static_cast<int64_t>(inputs.images.size()), "pictures");
   for (size_t f = 0; f < inputs.images.size(); ++f) {
     if (!inputs.images[f].empty())
-      WritePictures(inputs.images[f], inputs.labels.frames[f], layout, lifted.results[f], out);
+      WritePictures(inputs.images[f], inputs.labels.frames[f], layout, lifted.results[f], camera,
+                    out);
     progress.Advance(static_cast<double>(f + 1) / static_cast<double>(inputs.images.size()));
   }
 }
@@ -115,7 +117,7 @@ int Lift(const Options& options) {
   Progress progress("lift", static_cast<int64_t>(inputs.labels.frames.size()), "frames");
   const LiftedLabels lifted = LiftLabels(lifter, inputs.labels, camera, progress.Callback());
   WriteResults(lifted, inputs.labels, dictionary.skeleton, options);
-  WriteAllPictures(lifted, inputs, options.out);
+  WriteAllPictures(lifted, inputs, camera, options.out);
   const int usable = Report(lifted);
   if (truth) PrintErrorAgainstTruth(lifted.poses, *truth);
   fmt::print("results in {}\n", options.out);
@@ -140,7 +142,7 @@ CLI::App* AddLift(CLI::App* app, Run* run) {
       ->capture_default_str();
   command->add_option("--dictionary", options->dictionary, "Default: the one that ships");
   command->add_option("--camera", options->camera,
-                      "Camera file (YAML): its lens distortion is taken out of the labels");
+                      "Camera file (YAML): lifts in true perspective, without lens distortion");
   command->add_option("--method", options->method, "How to lift")
       ->check(CLI::IsMember(MethodNames()))
       ->capture_default_str();

@@ -11,14 +11,25 @@
 namespace poselift::cli {
 namespace {
 
-OverlayPerson ToOverlay(const PersonLabels& labels, const Layout& layout,
-                        const LiftResult& result) {
+// Where the picture shows a point of the body, and how far behind the pelvis
+// (px as well).
+Eigen::Vector3d InPicture(const Eigen::Vector3d& x_in_cam_m, const LiftedPose& lifted,
+                          const std::optional<Camera>& camera) {
+  Eigen::Vector3d x_px;
+  x_px << (camera ? camera->Project(lifted.pelvis_in_cam_m + x_in_cam_m)
+                  : Eigen::Vector2d(lifted.camera.Project(x_in_cam_m))),
+      lifted.camera.scale_px_per_m * x_in_cam_m.z();
+  return x_px;
+}
+
+OverlayPerson ToOverlay(const PersonLabels& labels, const Layout& layout, const LiftResult& result,
+                        const std::optional<Camera>& camera) {
   OverlayPerson person;
   const LiftedPose* lifted = result.IsUsable() ? &result.poses.front() : nullptr;
   if (lifted) {
     person.joints_in_px.resize(3, kNumJoints);
-    person.joints_in_px << lifted->camera.Project(lifted->joints_in_cam_m),
-        lifted->camera.scale_px_per_m * lifted->joints_in_cam_m.row(2);
+    for (int j = 0; j < kNumJoints; ++j)
+      person.joints_in_px.col(j) = InPicture(lifted->joints_in_cam_m.col(j), *lifted, camera);
     person.reprojection_rms_px = lifted->reprojection_rms_px;
   }
   for (const LandmarkLabel& label : labels.landmarks) {
@@ -28,10 +39,9 @@ OverlayPerson ToOverlay(const PersonLabels& labels, const Layout& layout,
     drawn.state = label.state;
     const auto row = layout.Find(label.name);
     if (!lifted || !row || layout.landmarks[*row].parts.empty()) continue;
-    Eigen::Vector2d reprojected = Eigen::Vector2d::Zero();
-    for (const auto& [joint, weight] : layout.landmarks[*row].parts)
-      reprojected += weight * person.joints_in_px.col(joint).head<2>();
-    drawn.reprojected_px = reprojected;
+    const Eigen::Vector3d x_in_cam_m =
+        SumOfJoints(layout.landmarks[*row].parts, lifted->joints_in_cam_m);
+    drawn.reprojected_px = InPicture(x_in_cam_m, *lifted, camera).head<2>();
   }
   return person;
 }
@@ -40,10 +50,10 @@ OverlayPerson ToOverlay(const PersonLabels& labels, const Layout& layout,
 
 void WritePictures(const std::filesystem::path& image, const FrameLabels& frame,
                    const Layout& layout, const std::vector<LiftResult>& results,
-                   const std::filesystem::path& out_dir) {
+                   const std::optional<Camera>& camera, const std::filesystem::path& out_dir) {
   OverlayInput overlay{frame.width_px, frame.height_px, {}};
   for (size_t p = 0; p < frame.people.size(); ++p)
-    overlay.people.push_back(ToOverlay(frame.people[p], layout, results[p]));
+    overlay.people.push_back(ToOverlay(frame.people[p], layout, results[p], camera));
   const std::string name = image.stem();
   WritePng(out_dir / (name + ".overlay.png"), DrawOverlay(ReadImage(image), overlay));
   for (const LiftResult& result : results) {

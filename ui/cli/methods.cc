@@ -13,6 +13,7 @@ LiftPhotoOptions FindMethod(const std::string& name) {
   if (name == "poselift") return options;
   // (P1) as the paper has it: no prior on the pose, and few atoms in its stead.
   options.lifter.prior_weight = 0.0;
+  options.refinement.prior_weight = 0.0;
   options.lifter.omp.max_atoms = 5;
   if (name == "paper") return options;
   // From the front.

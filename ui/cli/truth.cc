@@ -40,11 +40,10 @@ void PrintErrorAgainstTruth(const Poses& poses, const Truth& truth) {
       poses.frames[0].people[0].status != "ok")
     return;
   const Pose3& lifted = poses.frames[0].people[0].joints_in_cam_m;
-  Pose3 estimate = Pose3::Zero(3, truth.x_in_cam_m.cols());
+  Pose3 estimate(3, truth.x_in_cam_m.cols());
   for (Eigen::Index i = 0; i < estimate.cols(); ++i)
-    for (const auto& [joint, weight] :
-         TruthLayout().landmarks[truth.landmarks[static_cast<size_t>(i)]].parts)
-      estimate.col(i) += weight * lifted.col(joint);
+    estimate.col(i) =
+        SumOfJoints(TruthLayout().landmarks[truth.landmarks[static_cast<size_t>(i)]].parts, lifted);
   fmt::print(
       "against the truth, mean of {} joints: {:.0f} mm after similarity alignment (PA), "
       "{:.0f} mm after translation and scale (CAM)\n",

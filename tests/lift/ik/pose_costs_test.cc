@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "tests/support/cmu_like_skeleton.h"
+#include "tests/support/planted_pose.h"
 #include "tests/support/random_pose.h"
 #include "tests/support/support.h"
 
@@ -19,6 +20,7 @@ namespace poselift {
 namespace {
 
 using testing::MatrixNear;
+using testing::RandomMatrix;
 using testing::RandomPoseWithinLimits;
 using testing::TestRng;
 using testing::TrimmedCmuLikeSkeleton;
@@ -124,6 +126,20 @@ TEST(PoseCosts, SpringJacobianEqualsDifferencesInsideAndOutsideTheLimits) {
   cost->Evaluate(block.data(), residuals.data(), nullptr);
   EXPECT_TRUE(MatrixNear(
       residuals, Eigen::Vector3d(0.3 * 0.1, 0.3 * 0.9 + 7 * 0.4, -0.3 * 0.6 - 7 * 0.3), 1e-14));
+}
+
+TEST(PoseCosts, PriorSeesTheJointsWithTheRootAtRest) {
+  auto rng = TestRng();
+  const Articulation body(TrimmedCmuLikeSkeleton());
+  const PosePrior prior{RandomMatrix(69, 1, &rng), RandomMatrix(69, 69, &rng)};
+  Blocks blocks = RandomBlocks(body, &rng);
+  const auto cost = MakePriorCost(body, prior);
+  const std::vector<double*> block = {blocks.pose.dofs.data()};
+  ExpectJacobianAgrees(*cost, block, 0, ceres::EuclideanManifold<ceres::DYNAMIC>(body.num_dofs));
+  Eigen::VectorXd residuals(69);
+  cost->Evaluate(block.data(), residuals.data(), nullptr);
+  const Pose3 in_body_m = JointPositions(body.skeleton, {.dofs = blocks.pose.dofs});
+  EXPECT_TRUE(MatrixNear(residuals, prior.whitening * (Stacked(in_body_m) - prior.mean_m), 1e-12));
 }
 
 TEST(PoseCosts, SpaceResidualIsTheWeightedDifferenceOfTheSummedJoints) {
