@@ -11,7 +11,7 @@ build_release poselift poselift_bench
 lift_sample() { # lift_sample NAME: into out/demo/NAME
   local sample=samples/photo/$1
   build/poselift lift "$sample.jpg" --labels "$sample.labels.json" --out "out/demo/$1" \
-    --truth "$sample.truth.json"
+    --camera "$sample.camera.yaml" --truth "$sample.truth.json"
 }
 
 say "lifting the sample photos"

@@ -78,26 +78,26 @@ BODY15 = (
 # turn and heel lift of the shoe and where the knee points) or the directions
 # of thigh and shin and the shoe's turn.
 PICTURES = {
-    "lunge": {
+    "reach": {
         "size": (800, 600),
-        "camera": {"azimuth": 38, "elevation": 0, "roll": 0, "distance": 3.9,
-                   "focal_px": 1150, "target": (0.05, -0.05, 0.78)},
+        "camera": {"azimuth": 105, "elevation": 0, "roll": 0, "distance": 4.1,
+                   "focal_px": 1150, "target": (-0.02, -0.05, 0.86)},
         "scene": "room",
         "pose": {
-            "pelvis": {"at": (-0.05, 0.0, 0.66), "turn": (0, 8, 0)},
-            "chest": (0, 22, 14),
+            "pelvis": {"at": (-0.02, 0.0, 0.78), "turn": (0, 6, 6)},
+            "chest": (0, 12, 10),
             "head": (0, 6, 0),
             "arm_L": {"clavicle": (0, -8), "upper": (-0.75, 0.35, -0.55),
                       "fore": (-0.80, 0.30, -0.25), "hand": 0, "curl": 12},
             "arm_R": {"clavicle": (10, 18), "upper": (0.90, -0.25, 0.10),
                       "fore": (0.93, -0.02, 0.30), "hand": 0, "curl": 6},
-            "leg_L": {"foot": (-0.72, 0.13), "turn": 4, "heel": 48, "knee": (1, 0.1, 0)},
-            "leg_R": {"foot": (0.36, -0.15), "turn": -4, "heel": 0, "knee": (1, -0.1, 0)},
+            "leg_L": {"foot": (-0.48, 0.12), "turn": 4, "heel": 35, "knee": (1, 0.1, 0)},
+            "leg_R": {"foot": (0.34, -0.13), "turn": -4, "heel": 0, "knee": (1, -0.1, 0)},
         },
     },
     "throw": {
         "size": (800, 600),
-        "camera": {"azimuth": -25, "elevation": 30, "roll": 12, "distance": 4.4,
+        "camera": {"azimuth": 45, "elevation": 30, "roll": 12, "distance": 4.4,
                    "focal_px": 1150, "target": (0.0, 0.0, 0.85)},
         "scene": "court",
         "pose": {
