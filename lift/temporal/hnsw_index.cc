@@ -2,8 +2,10 @@
 // Copyright (c) 2026 the poselift authors
 #include "lift/temporal/hnsw_index.h"
 
-// hnswlib 0.6 leaves these out.
-#include <mutex>
+#include <algorithm>
+#include <mutex>  // hnswlib 0.6 leaves this and the last out
+#include <numeric>
+#include <random>
 #include <unordered_map>
 
 // Defines functions that are not inline: included here alone.
@@ -23,8 +25,12 @@ struct HnswIndex::Impl {
 
 HnswIndex::HnswIndex(const SegmentPoints& points, int max_links, int build_width)
     : impl_(std::make_unique<Impl>(points, max_links, build_width)) {
-  for (int i = 0; i < points.size(); ++i)
-    impl_->index.addPoint(points.Point(i), static_cast<hnswlib::labeltype>(i));
+  // In order of time they would be linked along their trials and little else.
+  std::vector<hnswlib::labeltype> order(static_cast<size_t>(points.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937_64(1));
+  for (const hnswlib::labeltype i : order)
+    impl_->index.addPoint(points.Point(static_cast<int>(i)), i);
 }
 
 HnswIndex::~HnswIndex() = default;
@@ -34,6 +40,19 @@ void HnswIndex::Search(const float* query, int width, std::vector<Candidate>* fo
   found->resize(nearest.size());
   for (size_t i = nearest.size(); i-- > 0; nearest.pop())
     (*found)[i] = {nearest.top().first, static_cast<int>(nearest.top().second)};
+}
+
+std::vector<std::vector<int>> HnswIndex::Links() const {
+  const auto& index = impl_->index;
+  std::vector<std::vector<int>> links(index.cur_element_count);
+  for (hnswlib::tableint i = 0; i < index.cur_element_count; ++i) {
+    hnswlib::linklistsizeint* list = index.get_linklist0(i);
+    const auto* first = reinterpret_cast<const hnswlib::tableint*>(list + 1);
+    for (int k = 0; k < index.getListCount(list); ++k)
+      links[index.getExternalLabel(i)].push_back(
+          static_cast<int>(index.getExternalLabel(first[k])));
+  }
+  return links;
 }
 
 }  // namespace poselift

@@ -21,6 +21,9 @@ class HnswIndex {
   // The `width` nearest that it finds, nearest first.
   void Search(const float* query, int width, std::vector<Candidate>* found) const;
 
+  // The lowest layer of the graph: by point, the points it links to.
+  std::vector<std::vector<int>> Links() const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

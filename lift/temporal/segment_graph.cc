@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "lift/temporal/hnsw_index.h"
+
 namespace poselift {
 namespace {
 
@@ -15,17 +17,7 @@ constexpr size_t kNumStarts = 32;    // of the last answers
 }  // namespace
 
 SegmentGraph::SegmentGraph(const SegmentPoints& points, int max_links, int build_width)
-    : points_(points),
-      most_links_(2 * static_cast<size_t>(max_links)),
-      links_(most_links_ * static_cast<size_t>(points.size())),
-      num_links_(static_cast<size_t>(points.size())) {
-  GraphWalk walk;
-  for (int point = 0; point < points.size(); ++point) {
-    if (point > 0 && points.Next(point - 1) < 0) walk.found.clear();  // another trial
-    Search(points.Point(point), build_width, &walk);
-    Add(point, &walk);
-  }
-}
+    : points_(points), links_(HnswIndex(points, max_links, build_width).Links()) {}
 
 void SegmentGraph::Search(const float* query, int width, GraphWalk* walk) const {
   Start(query, width, walk);
@@ -37,7 +29,7 @@ void SegmentGraph::Search(const float* query, int width, GraphWalk* walk) const 
       break;
     std::pop_heap(walk->frontier.begin(), walk->frontier.end(), nearest_on_top);
     walk->frontier.pop_back();
-    for (const int next : Links(point)) Visit(query, width, next, walk);
+    for (const int next : links_[point]) Visit(query, width, next, walk);
   }
   std::sort_heap(walk->found.begin(), walk->found.end());
 }
@@ -56,10 +48,9 @@ void SegmentGraph::Start(const float* query, int width, GraphWalk* walk) const {
   for (size_t i = 0; i < num_starts; ++i) {
     const int point = walk->last[i].second;
     Visit(query, width, point, walk);
-    if (const int next = points_.Next(point); next >= 0 && next < num_points_)
-      Visit(query, width, next, walk);
+    if (const int next = points_.Next(point); next >= 0) Visit(query, width, next, walk);
   }
-  const int num_landmarks = (num_points_ + kLandmarkStride - 1) / kLandmarkStride;
+  const int num_landmarks = (points_.size() + kLandmarkStride - 1) / kLandmarkStride;
   const int share =
       walk->last.empty() ? num_landmarks : (num_landmarks + kLandmarkShares - 1) / kLandmarkShares;
   for (int i = 0; i < share; ++i) {
@@ -83,49 +74,6 @@ void SegmentGraph::Visit(const float* query, int width, int point, GraphWalk* wa
   std::push_heap(found.begin(), found.end());
   walk->frontier.push_back(candidate);
   std::push_heap(walk->frontier.begin(), walk->frontier.end(), std::greater<>());
-}
-
-void SegmentGraph::Add(int point, GraphWalk* walk) {
-  thinned_ = walk->found;
-  Thin(most_links_ / 2, &thinned_);
-  SetLinks(point, thinned_);
-  num_points_ = point + 1;
-  for (const auto& [squared_distance, other] : thinned_) Link(other, {squared_distance, point});
-}
-
-void SegmentGraph::Link(int from, Candidate to) {
-  const std::span<const int> links = Links(from);
-  if (links.size() < most_links_) {
-    links_[static_cast<size_t>(from) * most_links_ + links.size()] = to.second;
-    ++num_links_[from];
-    return;
-  }
-  crowded_.assign(1, to);
-  for (const int other : links)
-    crowded_.emplace_back(points_.SquaredDistance(points_.Point(from), other), other);
-  std::sort(crowded_.begin(), crowded_.end());
-  Thin(most_links_, &crowded_);
-  SetLinks(from, crowded_);
-}
-
-void SegmentGraph::Thin(size_t most, std::vector<Candidate>* candidates) const {
-  size_t num_kept = 0;
-  for (const Candidate& candidate : *candidates) {
-    if (num_kept == most) break;
-    const float* point = points_.Point(candidate.second);
-    const bool leads_elsewhere = std::all_of(
-        candidates->begin(), candidates->begin() + num_kept, [&](const Candidate& kept) {
-          return points_.SquaredDistance(point, kept.second) >= candidate.first;
-        });
-    if (leads_elsewhere) (*candidates)[num_kept++] = candidate;
-  }
-  candidates->resize(num_kept);
-}
-
-void SegmentGraph::SetLinks(int point, const std::vector<Candidate>& links) {
-  num_links_[point] = static_cast<int>(links.size());
-  for (size_t i = 0; i < links.size(); ++i)
-    links_[static_cast<size_t>(point) * most_links_ + i] = links[i].second;
 }
 
 }  // namespace poselift

@@ -2,9 +2,7 @@
 // Copyright (c) 2026 the poselift authors
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "lift/temporal/segment_points.h"
@@ -34,14 +32,12 @@ struct GraphWalk {
 // looks at a part of them besides, so that a series which lost its way finds
 // back.
 //
-// Links of a point: of its nearest points each that is nearer to it than to any
-// link chosen before, so that they lead to other trials too and not only along
-// its own (Malkov and Yashunin 2016, algorithm 4). Points are added one by one in
-// order of time, their nearest found by the same search.
+// The links are those of the lowest layer of an HnswIndex: of the points near to a
+// point each that is nearer to it than to any taken before, so that they lead to
+// other trials too and not only along its own.
 class SegmentGraph {
  public:
-  // At most max_links links a point and direction; build_width: the width of the
-  // searches that find them. `points` outlives the graph. Deterministic.
+  // max_links, build_width: as HnswIndex has them. `points` outlives the graph.
   SegmentGraph(const SegmentPoints& points, int max_links, int build_width);
 
   // walk->found: up to `width` points, nearest first.
@@ -50,23 +46,9 @@ class SegmentGraph {
  private:
   void Start(const float* query, int width, GraphWalk* walk) const;
   void Visit(const float* query, int width, int point, GraphWalk* walk) const;
-  void Add(int point, GraphWalk* walk);
-  void Link(int from, Candidate to);
-  // Keeps what leads somewhere new, at most `most`, of candidates sorted by distance.
-  void Thin(size_t most, std::vector<Candidate>* candidates) const;
-
-  std::span<const int> Links(int point) const {
-    return {links_.data() + static_cast<size_t>(point) * most_links_,
-            static_cast<size_t>(num_links_[point])};
-  }
-  void SetLinks(int point, const std::vector<Candidate>& links);
 
   const SegmentPoints& points_;
-  size_t most_links_;  // both directions
-  int num_points_ = 0;
-  std::vector<int> links_;  // most_links_ places a point
-  std::vector<int> num_links_;
-  std::vector<Candidate> thinned_, crowded_;  // storage of Add and Link
+  std::vector<std::vector<int>> links_;  // by point
 };
 
 }  // namespace poselift
