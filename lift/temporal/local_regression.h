@@ -24,13 +24,18 @@ namespace poselift {
 // centred inputs, whose eigenvalues l_i are shared by all D models. What the
 // methods differ in is how much of the i-th principal direction they use.
 // lift/README.md has the derivation and what is wrong in the print.
+//
+// Neighbours should be of different motions, or well apart in time: frames next
+// to each other foretell each other so well that everything that is chosen or
+// estimated by leaving one out is too sure of itself.
 enum class LocalRegressionMethod {
   // Eq. (9) as it stands: weighted least squares, by the pseudo-inverse.
   kAsPrinted,
   // l_i / (l_i + ridge), the ridge by leave-one-out.
   kRidge,
   // Weighted partial least squares, a model of its own for each output (PLS1),
-  // as each dof has its own "projections of the highest correlation".
+  // as each dof has its own "projections of the highest correlation". Leaving one
+  // out takes the scores as given and so flatters it: best with num_components 1.
   kPartialLeastSquares,
   // The leading directions whole, the others not at all (Liu et al. 2011).
   kPrincipalComponents,
@@ -78,8 +83,10 @@ struct LocalRegressionOptions {
 };
 
 struct LocalPrediction {
-  Eigen::VectorXd mean;    // D
-  Eigen::VectorXd stddev;  // D, of the weighted leave-one-out residuals
+  Eigen::VectorXd mean;  // D
+  // D: root of the weighted mean square of the leave-one-out residuals. One
+  // neighbour leaves nothing to judge by: least_stddev.
+  Eigen::VectorXd stddev;
   // D x D, lower triangular, or empty: |whitening (y - mean)|^2 is the Mahalanobis
   // distance under the shrunk covariance of the leave-one-out residuals of all
   // dofs. Its inverse times its transposed inverse is that covariance, with
