@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "lift/baselines/interpolation.h"
+
+#include <cmath>
+
+namespace poselift {
+namespace {
+
+// The values of one channel, as the curve goes through them.
+struct Knots {
+  std::vector<Eigen::Index> frames;
+  std::vector<double> values;
+  std::vector<double> second;  // x'' at the knots, per frame^2
+
+  double Step(size_t i) const { return static_cast<double>(frames[i + 1] - frames[i]); }
+  double Slope(size_t i) const { return (values[i + 1] - values[i]) / Step(i); }
+};
+
+Knots FindKnots(const Eigen::MatrixXd& curves, Eigen::Index channel) {
+  Knots knots;
+  for (Eigen::Index t = 0; t < curves.cols(); ++t)
+    if (!std::isnan(curves(channel, t))) {
+      knots.frames.push_back(t);
+      knots.values.push_back(curves(channel, t));
+    }
+  knots.second.assign(knots.frames.size(), 0.0);
+  return knots;
+}
+
+// The tridiagonal system of the header, by elimination; its diagonal dominates,
+// so nothing need be exchanged.
+void BendNaturally(Knots* knots) {
+  const size_t last = knots->frames.size() - 1;
+  std::vector<double> upper(last + 1, 0.0);
+  for (size_t i = 1; i < last; ++i) {
+    const double before = knots->Step(i - 1);
+    const double after = knots->Step(i);
+    const double pivot = 2.0 * (before + after) - before * upper[i - 1];
+    const double right = 6.0 * (knots->Slope(i) - knots->Slope(i - 1));
+    upper[i] = after / pivot;
+    knots->second[i] = (right - before * knots->second[i - 1]) / pivot;
+  }
+  for (size_t i = last; i-- > 1;) knots->second[i] -= upper[i] * knots->second[i + 1];
+}
+
+// Between knots i and i+1.
+double Evaluate(const Knots& knots, size_t i, Eigen::Index frame) {
+  const double h = knots.Step(i);
+  const double u = static_cast<double>(frame - knots.frames[i]) / h;
+  const double w = 1.0 - u;
+  const double bend = (w * w * w - w) * knots.second[i] + (u * u * u - u) * knots.second[i + 1];
+  return w * knots.values[i] + u * knots.values[i + 1] + h * h / 6.0 * bend;
+}
+
+void FillChannel(const Knots& knots, Eigen::MatrixXd::RowXpr curve) {
+  const Eigen::Index first = knots.frames.front();
+  const Eigen::Index behind = knots.frames.back() + 1;
+  curve.head(first).setConstant(knots.values.front());
+  curve.tail(curve.size() - behind).setConstant(knots.values.back());
+  for (size_t i = 0; i + 1 < knots.frames.size(); ++i)
+    for (Eigen::Index t = knots.frames[i] + 1; t < knots.frames[i + 1]; ++t)
+      curve[t] = Evaluate(knots, i, t);
+}
+
+}  // namespace
+
+FilledCurves FillGaps(const Eigen::MatrixXd& curves, GapFill method) {
+  RequireCurves(curves);
+  FilledCurves result{curves, curves.array().isNaN(), {}};
+  for (Eigen::Index c = 0; c < curves.rows(); ++c) {
+    Knots knots = FindKnots(curves, c);
+    if (knots.frames.empty()) {
+      result.empty_channels.push_back(static_cast<int>(c));
+      result.filled.row(c).setConstant(false);
+      continue;
+    }
+    if (method == GapFill::kNaturalSpline) BendNaturally(&knots);
+    FillChannel(knots, result.curves.row(c));
+  }
+  return result;
+}
+
+}  // namespace poselift
