@@ -24,7 +24,7 @@ double Alpha(double cutoff_hz, double elapsed_s) {
 }  // namespace
 
 std::string OneEuroOptions::Validate() const {
-  if (const std::string wrong = WrongUnlessPositive("min_cutoff_hz", min_cutoff_hz); !wrong.empty())
+  if (std::string wrong = WrongUnlessPositive("min_cutoff_hz", min_cutoff_hz); !wrong.empty())
     return wrong;
   if (!(beta >= 0.0) || std::isinf(beta))
     return fmt::format("OneEuroOptions::beta = {}, wanted a number from 0 on", beta);
