@@ -112,6 +112,8 @@ SegmentSearch::SegmentSearch(const MotionDatabase& database, const FeatureVector
 
 SegmentSearch::~SegmentSearch() = default;
 
+const SegmentSearchOptions& SegmentSearch::options() const { return impl_->options; }
+
 int SegmentSearch::NumSegments() const { return impl_->points.size(); }
 
 void SegmentSearch::FindNearest(const Eigen::Ref<const FeatureMatrix>& query, SearchCursor* cursor,

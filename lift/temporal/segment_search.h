@@ -69,6 +69,7 @@ class SegmentSearch {
                    std::vector<SegmentMatch>* matches) const;
 
   int NumSegments() const;
+  const SegmentSearchOptions& options() const;
 
  private:
   struct Impl;

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "lift/eval/evaluate_motion.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+
+#include "src/dof_angles.h"
+#include "src/forward_kinematics.h"
+#include "src/layout.h"
+#include "src/units.h"
+
+namespace poselift {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::vector<TargetPoint> Observe(const ControlPoints& control, const Pose3& joints_in_world_m,
+                                 double sigma_m) {
+  const Layout& layout = *FindLayout("body15");
+  std::vector<TargetPoint> observed;
+  for (const std::string& name : control.landmarks) {
+    const auto& parts = layout.landmarks[static_cast<size_t>(layout.Find(name).value())].parts;
+    observed.push_back({parts, SumOfJoints(parts, joints_in_world_m), 1.0 / sigma_m});
+  }
+  return observed;
+}
+
+// Mean over the root and the bones that turn.
+double MeanAngle_deg(const Skeleton& skeleton, const SkeletonPose& a, const SkeletonPose& b) {
+  double sum_rad =
+      AngleBetween(a.world_from_root.toRotationMatrix(), b.world_from_root.toRotationMatrix());
+  int count = 1;
+  int first = 0;
+  for (const Bone& bone : skeleton.bones) {
+    if (bone.dofs.empty()) continue;
+    sum_rad += AngleBetween(RotationOfDofs(bone.dofs, a.dofs.data() + first),
+                            RotationOfDofs(bone.dofs, b.dofs.data() + first));
+    first += static_cast<int>(bone.dofs.size());
+    ++count;
+  }
+  return sum_rad / count * kDegFromRad;
+}
+
+MotionEvaluation Run(const NamedMotionMethod& named, const MotionTrial& trial,
+                     const ControlPoints& control, const EvaluateMotionOptions& options) {
+  const Skeleton& skeleton = trial.motion.skeleton;
+  const JointSites sites = FindJointSites(skeleton);
+  const auto& frames = trial.motion.frames;
+  const auto first = static_cast<size_t>(options.num_first_poses);
+  const size_t end = std::min(frames.size(), first + static_cast<size_t>(options.max_frames));
+  const std::unique_ptr<MotionMethod> method = named.make();
+  method->Begin({frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(first)});
+
+  MotionEvaluation row{named.name, trial.action, trial.name, control.name};
+  Pose3 error_1 = Pose3::Zero(3, kNumJoints), error_2 = error_1;  // of the last frames
+  BoneFrames bones;
+  for (size_t t = first; t < end; ++t) {
+    ForwardKinematics(skeleton, frames[t], &bones);
+    const Pose3 truth_m = JointPositions(sites, bones);
+    const auto observed = Observe(control, truth_m, options.sigma_m);
+    const auto before = Clock::now();
+    const SkeletonPose pose = method->Next(observed);
+    row.ms_per_frame += std::chrono::duration<double, std::milli>(Clock::now() - before).count();
+    ForwardKinematics(skeleton, pose, &bones);
+    const Pose3 error = JointPositions(sites, bones) - truth_m;
+    row.position_mm += 1e3 * error.colwise().norm().mean();
+    row.acceleration_mm += 1e3 * (error - 2.0 * error_1 + error_2).colwise().norm().mean();
+    row.angle_deg += MeanAngle_deg(skeleton, pose, frames[t]);
+    error_2 = error_1;
+    error_1 = error;
+    ++row.num_frames;
+  }
+  const double count = std::max(1, row.num_frames);
+  row.position_mm /= count;
+  row.acceleration_mm /= count;
+  row.angle_deg /= count;
+  row.ms_per_frame /= count;
+  return row;
+}
+
+}  // namespace
+
+const std::vector<ControlPoints>& PaperControlPoints() {
+  static const std::vector<ControlPoints> sets = {
+      {"2", {"left_wrist", "right_ankle"}},
+      {"3", {"left_wrist", "left_ankle", "right_ankle"}},
+      {"4", {"left_wrist", "right_wrist", "left_ankle", "right_ankle"}},
+      {"5", {"pelvis", "left_wrist", "right_wrist", "left_ankle", "right_ankle"}},
+      {"6", {"head_top", "pelvis", "left_wrist", "right_wrist", "left_ankle", "right_ankle"}}};
+  return sets;
+}
+
+std::vector<MotionEvaluation> EvaluateMotion(const std::vector<NamedMotionMethod>& methods,
+                                             const std::vector<MotionTrial>& trials,
+                                             const EvaluateMotionOptions& options,
+                                             const ProgressFn& progress) {
+  for (const NamedMotionMethod& method : methods) method.make();  // throws here, not in a thread
+  const size_t sets = options.control_points.size();
+  std::vector<MotionEvaluation> rows(methods.size() * trials.size() * sets);
+  std::atomic<size_t> done = 0;
+#pragma omp parallel for schedule(dynamic)
+  for (size_t i = 0; i < rows.size(); ++i) {
+    rows[i] = Run(methods[i / (trials.size() * sets)], trials[i / sets % trials.size()],
+                  options.control_points[i % sets], options);
+    const size_t now = ++done;
+    if (progress) progress(static_cast<double>(now) / static_cast<double>(rows.size()));
+  }
+  return rows;
+}
+
+}  // namespace poselift

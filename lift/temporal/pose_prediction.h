@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "lift/ik/articulation.h"
+#include "lift/temporal/motion_features.h"
+
+namespace ceres {
+class CostFunction;
+}
+
+namespace poselift {
+
+// p(q_t | q_{t-1}, ..., q_{t-m}) of Eq. (1) of the motion paper as a Gaussian:
+// where the next pose of a motion is expected, and how surely.
+struct PosePrediction {
+  SkeletonPose pose;          // the mean
+  Eigen::MatrixXd whitening;  // r x 46, of differences of features
+};
+
+// E_prior of Eq. (2): whitening delta(q), r rows, where delta is the difference
+// of the features (motion_features.h) of q and of the mean, to first order in
+// the root's: with H the heading of the mean,
+//   rows 0..39   dofs - mean
+//   rows 43, 40, 44 (times dt, 1, dt)   H^T (p - p_mean)
+//   rows 41, 45, 42 (1, times dt, 1)    H^T 2 vec(q conj(q_mean))
+// Parameter blocks: root_in_world_m, world_from_root (x y z w), dofs, as in
+// lift/ik/pose_costs.h.
+std::unique_ptr<ceres::CostFunction> MakePredictionCost(const PosePrediction& prediction,
+                                                        double frame_time_s);
+
+}  // namespace poselift
