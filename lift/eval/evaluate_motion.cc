@@ -83,13 +83,13 @@ MotionEvaluation Run(const NamedMotionMethod& named, const MotionTrial& trial,
 }  // namespace
 
 const std::vector<ControlPoints>& PaperControlPoints() {
-  static const std::vector<ControlPoints> sets = {
+  static const std::vector<ControlPoints> kSets = {
       {"2", {"left_wrist", "right_ankle"}},
       {"3", {"left_wrist", "left_ankle", "right_ankle"}},
       {"4", {"left_wrist", "right_wrist", "left_ankle", "right_ankle"}},
       {"5", {"pelvis", "left_wrist", "right_wrist", "left_ankle", "right_ankle"}},
       {"6", {"head_top", "pelvis", "left_wrist", "right_wrist", "left_ankle", "right_ankle"}}};
-  return sets;
+  return kSets;
 }
 
 std::vector<MotionEvaluation> EvaluateMotion(const std::vector<NamedMotionMethod>& methods,

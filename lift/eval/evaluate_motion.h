@@ -53,7 +53,7 @@ struct EvaluateMotionOptions {
   std::vector<ControlPoints> control_points = PaperControlPoints();
   int num_first_poses = 4;  // known at the start
   double sigma_m = 0.005;   // of the control points, as the methods are told
-  int max_frames = 600;     // of a trial
+  int max_frames = 300;     // of a trial
 };
 
 // A row for each method, trial and set of control points.

@@ -39,7 +39,7 @@ const std::vector<Action> kActions = {{"walking", {"07_05", "16_15", "02_01"}},
                                       {"golf", {"golf"}}};
 
 // Of these the methods take the neighbours.
-const SegmentSearchOptions kCandidates{.num_nearest = 200, .width = 200};
+const SegmentSearchOptions kCandidates{.num_nearest = 200, .exclusion_frames = 15, .width = 200};
 
 struct Options {
   std::string mocap;
