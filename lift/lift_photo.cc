@@ -48,6 +48,19 @@ void MeasureErrors(const Observation& observation, LiftedPose* lifted) {
     lifted->reprojection_rms_px = std::sqrt(squared_px / count);
 }
 
+// Different codes may end in one pose: of those the best stays.
+void KeepDistinct(double distinct_m, std::vector<LiftedPose>* sorted) {
+  std::vector<LiftedPose> distinct;
+  for (LiftedPose& pose : *sorted) {
+    const bool is_new = std::all_of(distinct.begin(), distinct.end(), [&](const LiftedPose& d) {
+      return (d.joints_in_cam_m - pose.joints_in_cam_m).norm() >=
+             distinct_m * std::sqrt(kNumJoints);
+    });
+    if (is_new) distinct.push_back(std::move(pose));
+  }
+  *sorted = std::move(distinct);
+}
+
 }  // namespace
 
 std::string LiftPhotoOptions::Validate() const {
@@ -96,6 +109,7 @@ LiftResult PhotoLifter::LiftPhoto(const Observation& observation) const {
   }
   std::stable_sort(result.poses.begin(), result.poses.end(),
                    [](const LiftedPose& a, const LiftedPose& b) { return a.cost < b.cost; });
+  KeepDistinct(options_.lifter.distinct_m, &result.poses);
   result.status = result.poses.empty() ? LiftStatus::kFailed : LiftStatus::kOk;
   result.message = result.poses.empty() ? "no pose of the skeleton fits the points" : "";
   return result;

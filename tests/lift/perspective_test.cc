@@ -46,6 +46,13 @@ Observation Observe(const Pose3& joints_in_cam_m, const Eigen::Vector3d& pelvis_
   return observation;
 }
 
+void ExpectDistinct(const std::vector<LiftedPose>& poses, double distinct_m) {
+  for (size_t a = 0; a < poses.size(); ++a)
+    for (size_t b = 0; b < a; ++b)
+      EXPECT_GE((poses[a].joints_in_cam_m - poses[b].joints_in_cam_m).norm(),
+                distinct_m * std::sqrt(kNumJoints));
+}
+
 TEST(Perspective, OfTheTrueDepthsIsExactlyAWeakPerspectivePicture) {
   auto rng = TestRng();
   const Eigen::Vector3d pelvis_m(0.3, -0.4, 2.5);
@@ -104,6 +111,8 @@ TEST(Perspective, AKnownCameraMakesTheLiftOfANearBodyBetter) {
     error_mm += PaError_mm(in_perspective.poses[0].joints_in_cam_m, joints_m) / 12;
     error_weak_mm += PaError_mm(weak.poses[0].joints_in_cam_m, joints_m) / 12;
     EXPECT_NEAR(in_perspective.poses[0].pelvis_in_cam_m.z(), 2.0, 0.3);
+    ExpectDistinct(in_perspective.poses, LifterOptions().distinct_m);
+    ExpectDistinct(weak.poses, LifterOptions().distinct_m);
     EXPECT_FALSE(weak.poses[0].pelvis_in_cam_m.allFinite());
   }
   EXPECT_LT(error_mm, 0.7 * error_weak_mm);
