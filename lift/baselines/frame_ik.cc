@@ -2,19 +2,9 @@
 // Copyright (c) 2026 the poselift authors
 #include "lift/baselines/frame_ik.h"
 
-#include <ceres/cost_function.h>
-
 #include <stdexcept>
 
-#include "lift/ik/pose_problem.h"
-
 namespace poselift {
-namespace {
-
-constexpr int kMaxIterations = 30;
-constexpr double kFunctionTolerance = 1e-5;
-
-}  // namespace
 
 FrameIk::FrameIk(const Skeleton& skeleton, double frame_time_s, const FeatureVector& sigmas)
     : body_(skeleton), frame_time_s_(frame_time_s) {
@@ -27,13 +17,7 @@ void FrameIk::Begin(const std::vector<SkeletonPose>& first) {
 }
 
 SkeletonPose FrameIk::Next(const std::vector<TargetPoint>& observed) {
-  const DofLimits none(body_, /*enforce=*/false);
-  PoseProblem problem(body_, last_.pose,
-                      {.limits = none, .rest = Eigen::VectorXd::Zero(body_.num_dofs)});
-  problem.AddPoseTerm(MakePredictionCost(last_, frame_time_s_));
-  if (!observed.empty()) problem.AddPoseTerm(MakeSpaceCost(body_, observed, false));
-  if (IsUsable(problem.Solve(kMaxIterations, kFunctionTolerance).status))
-    last_.pose = problem.pose();
+  last_.pose = MostProbablePose(body_, last_, observed, frame_time_s_);
   return last_.pose;
 }
 

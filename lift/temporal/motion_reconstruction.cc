@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the poselift authors
 #include "lift/temporal/motion_reconstruction.h"
 
-#include <ceres/cost_function.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +9,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "lift/ik/pose_problem.h"
 #include "src/forward_kinematics.h"
 #include "src/input_error.h"
 
@@ -47,21 +45,13 @@ std::string MotionReconstructionOptions::Validate() const {
   if (!(prior_sigma_factor > 0.0 && std::isfinite(prior_sigma_factor)))
     return fmt::format("MotionReconstructionOptions::prior_sigma_factor = {}, wanted > 0",
                        prior_sigma_factor);
-  if (max_iterations < 1)
-    return fmt::format("MotionReconstructionOptions::max_iterations = {}, wanted at least 1",
-                       max_iterations);
   return regression.Validate();
 }
 
 MotionReconstruction::MotionReconstruction(const MotionDatabase& database,
                                            const SegmentSearch& search,
-                                           const FeatureVector& row_weights,
                                            const MotionReconstructionOptions& options)
-    : database_(database),
-      search_(search),
-      row_weights_(row_weights),
-      options_(options),
-      body_(database.skeleton) {
+    : database_(database), search_(search), options_(options), body_(database.skeleton) {
   if (const std::string error = options_.Validate(); !error.empty()) throw InputError(error);
   options_.regression.whitening = true;
 }
@@ -79,25 +69,18 @@ void MotionReconstruction::Begin(const std::vector<SkeletonPose>& first) {
 SkeletonPose MotionReconstruction::Next(const std::vector<TargetPoint>& observed) {
   if (past_.empty()) throw std::invalid_argument("motion reconstruction: Next before Begin");
   Predict(observed);
-  const DofLimits none(body_, /*enforce=*/false);
-  PoseProblem problem(body_, prediction_.pose,
-                      {.limits = none, .rest = Eigen::VectorXd::Zero(body_.num_dofs)});
-  problem.AddPoseTerm(MakePredictionCost(prediction_, database_.frame_time_s));
-  if (!observed.empty()) problem.AddPoseTerm(MakeSpaceCost(body_, observed, false));
-  const PoseProblemOutcome outcome =
-      problem.Solve(options_.max_iterations, options_.function_tolerance);
+  const SkeletonPose pose = MostProbablePose(body_, prediction_, observed, database_.frame_time_s);
   past_.erase(past_.begin());
-  past_.push_back(IsUsable(outcome.status) ? problem.pose() : prediction_.pose);
+  past_.push_back(pose);
   return past_.back();
 }
 
-const PosePrediction& MotionReconstruction::Predict(const std::vector<TargetPoint>& observed) {
+void MotionReconstruction::Predict(const std::vector<TargetPoint>& observed) {
   Gather(observed);
   KeepNearest();
   regression_.Solve(x_, y_, query_, options_.regression, &local_);
   prediction_.pose = PoseFromFeatures(local_.mean, past_.back(), database_.frame_time_s);
   prediction_.whitening = local_.whitening / options_.prior_sigma_factor;
-  return prediction_;
 }
 
 // The candidates' inputs, the last poses and where their next pose has the
@@ -128,7 +111,7 @@ void MotionReconstruction::Gather(const std::vector<TargetPoint>& observed) {
   }
   Eigen::VectorXd& scales = options_.regression.row_scales;
   scales.resize(x_.rows());
-  scales << row_weights_.replicate(m, 1),
+  scales << search_.row_weights().replicate(m, 1),
       Eigen::VectorXd::Constant(num_coordinates, options_.observed_scale_per_m);
 }
 

@@ -27,8 +27,6 @@ struct MotionReconstructionOptions {
   // The regression's standard deviations are multiplied by this: they are those
   // of one step from captured poses, the poses it looks back on are not.
   double prior_sigma_factor = 3.0;
-  int max_iterations = 30;
-  double function_tolerance = 1e-5;
 
   std::string Validate() const;  // empty, or which option is wrong and why
 };
@@ -42,11 +40,9 @@ struct MotionReconstructionOptions {
 // helps to choose and weigh the neighbours, by where their next pose has it.
 class MotionReconstruction : public MotionMethod {
  public:
-  // The search, over the segments of the database, finds the candidates; with
-  // row_weights, the weights it was made with. Database and search must outlive
-  // this. Throws InputError when the options are invalid.
+  // The search, over the segments of the database, finds the candidates. Both
+  // must outlive this. Throws InputError when the options are invalid.
   MotionReconstruction(const MotionDatabase& database, const SegmentSearch& search,
-                       const FeatureVector& row_weights,
                        const MotionReconstructionOptions& options = {});
 
   // At least m + 1 poses. Throws std::invalid_argument for fewer.
@@ -55,13 +51,12 @@ class MotionReconstruction : public MotionMethod {
 
  private:
   // p(q_t | c_t, the last m poses) without the likelihood.
-  const PosePrediction& Predict(const std::vector<TargetPoint>& observed);
+  void Predict(const std::vector<TargetPoint>& observed);
   void Gather(const std::vector<TargetPoint>& observed);
   void KeepNearest();
 
   const MotionDatabase& database_;
   const SegmentSearch& search_;
-  const FeatureVector row_weights_;
   MotionReconstructionOptions options_;
   Articulation body_;
   LocalRegression regression_;

@@ -4,8 +4,13 @@
 
 #include <ceres/cost_function.h>
 
+#include "lift/ik/pose_problem.h"
+
 namespace poselift {
 namespace {
+
+constexpr int kMaxIterations = 30;
+constexpr double kFunctionTolerance = 1e-5;
 
 using RowMajorMap =
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
@@ -65,6 +70,17 @@ class PredictionCost final : public ceres::CostFunction {
 std::unique_ptr<ceres::CostFunction> MakePredictionCost(const PosePrediction& prediction,
                                                         double frame_time_s) {
   return std::make_unique<PredictionCost>(prediction, frame_time_s);
+}
+
+SkeletonPose MostProbablePose(const Articulation& body, const PosePrediction& prediction,
+                              const std::vector<TargetPoint>& observed, double frame_time_s) {
+  const DofLimits none(body, /*enforce=*/false);
+  PoseProblem problem(body, prediction.pose,
+                      {.limits = none, .rest = Eigen::VectorXd::Zero(body.num_dofs)});
+  problem.AddPoseTerm(MakePredictionCost(prediction, frame_time_s));
+  if (!observed.empty()) problem.AddPoseTerm(MakeSpaceCost(body, observed, false));
+  const bool solved = IsUsable(problem.Solve(kMaxIterations, kFunctionTolerance).status);
+  return solved ? problem.pose() : prediction.pose;
 }
 
 }  // namespace poselift

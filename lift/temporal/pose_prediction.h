@@ -4,8 +4,10 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
 #include "lift/ik/articulation.h"
+#include "lift/ik/pose_costs.h"
 #include "lift/temporal/motion_features.h"
 
 namespace ceres {
@@ -31,5 +33,11 @@ struct PosePrediction {
 // lift/ik/pose_costs.h.
 std::unique_ptr<ceres::CostFunction> MakePredictionCost(const PosePrediction& prediction,
                                                         double frame_time_s);
+
+// E_prior and E_likelihood, Eq. (2) and (11), by Levenberg-Marquardt from the mean:
+//   argmin_q  sum_k |m_k f(q) - c_k|^2 / sigma_k^2 + |whitening delta(q)|^2
+// The mean where the solver breaks down.
+SkeletonPose MostProbablePose(const Articulation& body, const PosePrediction& prediction,
+                              const std::vector<TargetPoint>& observed, double frame_time_s);
 
 }  // namespace poselift

@@ -114,6 +114,8 @@ SegmentSearch::~SegmentSearch() = default;
 
 const SegmentSearchOptions& SegmentSearch::options() const { return impl_->options; }
 
+const FeatureVector& SegmentSearch::row_weights() const { return impl_->weights; }
+
 int SegmentSearch::NumSegments() const { return impl_->points.size(); }
 
 void SegmentSearch::FindNearest(const Eigen::Ref<const FeatureMatrix>& query, SearchCursor* cursor,

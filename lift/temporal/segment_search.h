@@ -70,6 +70,7 @@ class SegmentSearch {
 
   int NumSegments() const;
   const SegmentSearchOptions& options() const;
+  const FeatureVector& row_weights() const;
 
  private:
   struct Impl;

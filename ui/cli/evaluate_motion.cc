@@ -53,7 +53,6 @@ struct Options {
 struct Experiment {
   MotionDatabase database;
   std::vector<MotionTrial> trials;
-  FeatureVector row_weights;
 };
 
 Experiment Load(const Options& options) {
@@ -74,7 +73,6 @@ Experiment Load(const Options& options) {
   Progress progress("read", static_cast<int64_t>(rest.size()), "files");
   experiment.database =
       LoadMotionDatabase(rest, standard, {.frame_time_s = frame_time_s}, progress.Callback());
-  experiment.row_weights = RowWeights(experiment.database);
   return experiment;
 }
 
@@ -177,8 +175,8 @@ MotionReconstructionOptions AsInPapers(LocalRegressionMethod method) {
 std::vector<NamedMotionMethod> Methods(const Experiment& experiment, const SegmentSearch& search) {
   const auto regression = [&](std::string name, const MotionReconstructionOptions& options) {
     return NamedMotionMethod{std::move(name), [&, options] {
-                               return std::make_unique<MotionReconstruction>(
-                                   experiment.database, search, experiment.row_weights, options);
+                               return std::make_unique<MotionReconstruction>(experiment.database,
+                                                                             search, options);
                              }};
   };
   const FeatureVector sigmas = ChangesOf(experiment.database);
@@ -198,7 +196,7 @@ std::vector<NamedMotionMethod> Methods(const Experiment& experiment, const Segme
 int EvaluateMotions(const Options& options) {
   const Experiment experiment = Load(options);
   const MotionDatabase& database = experiment.database;
-  const SegmentSearch search(database, experiment.row_weights, kCandidates);
+  const SegmentSearch search(database, RowWeights(database), kCandidates);
   const std::vector<NamedMotionMethod> methods = Methods(experiment, search);
   Progress progress("reconstruct");
   const auto rows =

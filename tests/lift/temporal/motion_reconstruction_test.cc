@@ -62,7 +62,7 @@ struct World {
 
   NamedMotionMethod Reconstruction(const SegmentSearch& search) const {
     return {"reconstruction",
-            [&] { return std::make_unique<MotionReconstruction>(database, search, weights); }};
+            [&] { return std::make_unique<MotionReconstruction>(database, search); }};
   }
 
   std::mt19937_64 rng;
@@ -135,8 +135,8 @@ TEST(MotionReconstruction, DoesNotDependOnPlaceAndHeading) {
     pose.world_from_root = turn * pose.world_from_root;
     pose.root_in_world_m = turn * pose.root_in_world_m + shift_m;
   }
-  MotionReconstruction here(world.database, search, world.weights);
-  MotionReconstruction there(world.database, search, world.weights);
+  MotionReconstruction here(world.database, search);
+  MotionReconstruction there(world.database, search);
   here.Begin({motion.frames.begin(), motion.frames.begin() + 4});
   there.Begin({moved.frames.begin(), moved.frames.begin() + 4});
   for (size_t t = 4; t < motion.frames.size(); ++t) {
@@ -155,7 +155,7 @@ TEST(MotionReconstruction, DoesNotDependOnPlaceAndHeading) {
 TEST(MotionReconstruction, GoesOnWithoutObservations) {
   const World world;
   const SegmentSearch search(world.database, world.weights, {.num_nearest = 100});
-  MotionReconstruction method(world.database, search, world.weights);
+  MotionReconstruction method(world.database, search);
   const Motion motion = world.Gait(30, 0.3);
   method.Begin({motion.frames.begin(), motion.frames.begin() + 4});
   SkeletonPose pose;
@@ -170,11 +170,11 @@ TEST(MotionReconstruction, SaysWhatIsWrong) {
   const SegmentSearch search(world.database, world.weights, {});
   MotionReconstructionOptions options;
   options.num_neighbours = 0;
-  EXPECT_THROW(MotionReconstruction(world.database, search, world.weights, options), InputError);
+  EXPECT_THROW(MotionReconstruction(world.database, search, options), InputError);
   options = {};
   options.regression.velocity_scale = 30.0;
-  EXPECT_THROW(MotionReconstruction(world.database, search, world.weights, options), InputError);
-  MotionReconstruction method(world.database, search, world.weights);
+  EXPECT_THROW(MotionReconstruction(world.database, search, options), InputError);
+  MotionReconstruction method(world.database, search);
   EXPECT_THROW(method.Next({}), std::invalid_argument);
   EXPECT_THROW(method.Begin(world.Gait(2, 0.5).frames), std::invalid_argument);
 }
