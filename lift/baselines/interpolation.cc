@@ -2,7 +2,11 @@
 // Copyright (c) 2026 the poselift authors
 #include "lift/baselines/interpolation.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+
+#include "src/input_error.h"
 
 namespace poselift {
 namespace {
@@ -17,15 +21,19 @@ struct Knots {
   double Slope(size_t i) const { return (values[i + 1] - values[i]) / Step(i); }
 };
 
-Knots FindKnots(const Eigen::MatrixXd& curves, Eigen::Index channel) {
-  Knots knots;
-  for (Eigen::Index t = 0; t < curves.cols(); ++t)
-    if (!std::isnan(curves(channel, t))) {
-      knots.frames.push_back(t);
-      knots.values.push_back(curves(channel, t));
-    }
-  knots.second.assign(knots.frames.size(), 0.0);
-  return knots;
+// The values of a channel, parted where a gap is too long to fill.
+std::vector<Knots> FindKnots(const Eigen::MatrixXd& curves, Eigen::Index channel,
+                             int max_gap_frames) {
+  std::vector<Knots> pieces;
+  for (Eigen::Index t = 0; t < curves.cols(); ++t) {
+    if (std::isnan(curves(channel, t))) continue;
+    if (pieces.empty() || t - pieces.back().frames.back() - 1 > max_gap_frames)
+      pieces.emplace_back();
+    pieces.back().frames.push_back(t);
+    pieces.back().values.push_back(curves(channel, t));
+  }
+  for (Knots& knots : pieces) knots.second.assign(knots.frames.size(), 0.0);
+  return pieces;
 }
 
 // The tridiagonal system of the header, by elimination; its diagonal dominates,
@@ -53,31 +61,41 @@ double Evaluate(const Knots& knots, size_t i, Eigen::Index frame) {
   return w * knots.values[i] + u * knots.values[i + 1] + h * h / 6.0 * bend;
 }
 
-void FillChannel(const Knots& knots, Eigen::MatrixXd::RowXpr curve) {
-  const Eigen::Index first = knots.frames.front();
-  const Eigen::Index behind = knots.frames.back() + 1;
-  curve.head(first).setConstant(knots.values.front());
-  curve.tail(curve.size() - behind).setConstant(knots.values.back());
+void FillBetween(const Knots& knots, Eigen::MatrixXd::RowXpr curve) {
   for (size_t i = 0; i + 1 < knots.frames.size(); ++i)
     for (Eigen::Index t = knots.frames[i] + 1; t < knots.frames[i + 1]; ++t)
       curve[t] = Evaluate(knots, i, t);
 }
 
+void HoldEnds(const Knots& first, const Knots& last, int max_gap_frames,
+              Eigen::MatrixXd::RowXpr curve) {
+  if (first.frames.front() <= max_gap_frames)
+    curve.head(first.frames.front()).setConstant(first.values.front());
+  const Eigen::Index behind = curve.size() - last.frames.back() - 1;
+  if (behind <= max_gap_frames) curve.tail(behind).setConstant(last.values.back());
+}
+
 }  // namespace
 
-FilledCurves FillGaps(const Eigen::MatrixXd& curves, GapFill method) {
+FilledCurves FillGaps(const Eigen::MatrixXd& curves, GapFill method, int max_gap_frames) {
   RequireCurves(curves);
-  FilledCurves result{curves, curves.array().isNaN(), {}};
+  if (max_gap_frames < 0)
+    throw InputError(
+        fmt::format("FillGaps: max_gap_frames = {}, wanted 0 or more", max_gap_frames));
+  FilledCurves result{curves, {}, {}};
   for (Eigen::Index c = 0; c < curves.rows(); ++c) {
-    Knots knots = FindKnots(curves, c);
-    if (knots.frames.empty()) {
+    std::vector<Knots> pieces = FindKnots(curves, c, max_gap_frames);
+    if (pieces.empty()) {
       result.empty_channels.push_back(static_cast<int>(c));
-      result.filled.row(c).setConstant(false);
       continue;
     }
-    if (method == GapFill::kNaturalSpline) BendNaturally(&knots);
-    FillChannel(knots, result.curves.row(c));
+    for (Knots& knots : pieces) {
+      if (method == GapFill::kNaturalSpline) BendNaturally(&knots);
+      FillBetween(knots, result.curves.row(c));
+    }
+    HoldEnds(pieces.front(), pieces.back(), max_gap_frames, result.curves.row(c));
   }
+  result.filled = curves.array().isNaN() && !result.curves.array().isNaN();
   return result;
 }
 

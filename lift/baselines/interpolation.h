@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "lift/baselines/curves.h"
@@ -20,6 +21,8 @@ struct FilledCurves {
   std::vector<int> empty_channels;  // ascending; without any value: they stay NaN
 };
 
+inline constexpr int kAnyLength = std::numeric_limits<int>::max();
+
 // Fills the gaps of every channel from the frames t_0 < ... < t_n that have a
 // value v_i; those keep it bit for bit. Between t_i and t_i+1, with
 // h = t_i+1 - t_i, u = (t - t_i) / h and w = 1 - u:
@@ -36,8 +39,12 @@ struct FilledCurves {
 // through the values it has the least integral of x''^2. Frames before the
 // first value or after the last hold that value: a cubic would run away there.
 //
+// A gap of more than max_gap_frames missing frames, at an end or between two
+// values, stays as it is, and the spline ends (naturally) on either side of it.
+//
 // curves: as in curves.h, of any frame rate. Throws InputError when an entry is
-// infinite.
-FilledCurves FillGaps(const Eigen::MatrixXd& curves, GapFill method = GapFill::kNaturalSpline);
+// infinite or max_gap_frames is negative.
+FilledCurves FillGaps(const Eigen::MatrixXd& curves, GapFill method = GapFill::kNaturalSpline,
+                      int max_gap_frames = kAnyLength);
 
 }  // namespace poselift

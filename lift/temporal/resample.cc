@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "src/input_error.h"
 
@@ -14,6 +15,7 @@ namespace poselift {
 namespace {
 
 constexpr double kDigitsOfFiles = 1e-3;
+constexpr double kWidestStep = 2.0;  // in frame times; wider is a gap
 
 std::vector<bool> AreRotations(const Skeleton& skeleton) {
   std::vector<bool> are_rotations;
@@ -53,6 +55,34 @@ Motion Resample(const Motion& motion, double frame_time_s) {
     resampled.frames.push_back(
         part > 0.0 ? Between(motion.frames[before], motion.frames[before + 1], part, are_rotations)
                    : motion.frames[before]);
+  }
+  return resampled;
+}
+
+Motion ResampleUneven(const Skeleton& skeleton, const std::vector<SkeletonPose>& poses,
+                      std::span<const double> times_s, double frame_time_s) {
+  if (!(frame_time_s > 0.0))
+    throw InputError(fmt::format("found a frame time of {} s, wanted more than 0", frame_time_s));
+  if (poses.size() != times_s.size())
+    throw std::invalid_argument("ResampleUneven: a time for each pose is wanted");
+  Motion resampled{skeleton, frame_time_s, {}};
+  if (poses.empty()) return resampled;
+  const std::vector<bool> are_rotations = AreRotations(skeleton);
+  size_t before = 0;
+  for (size_t k = 0;; ++k) {
+    const double now_s = times_s.front() + static_cast<double>(k) * frame_time_s;
+    if (now_s > times_s.back() + kDigitsOfFiles * frame_time_s) break;
+    while (before + 1 < times_s.size() && times_s[before + 1] <= now_s) ++before;
+    const size_t after = std::min(before + 1, poses.size() - 1);
+    const double step_s = times_s[after] - times_s[before];
+    const double part = step_s > 0.0 ? (now_s - times_s[before]) / step_s : 0.0;
+    if (part <= 0.0)
+      resampled.frames.push_back(poses[before]);
+    else if (step_s > kWidestStep * frame_time_s || !IsKnown(poses[before]) ||
+             !IsKnown(poses[after]))
+      resampled.frames.push_back(UnknownPose(skeleton));
+    else
+      resampled.frames.push_back(Between(poses[before], poses[after], part, are_rotations));
   }
   return resampled;
 }

@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include "src/io/json_value.h"
@@ -60,20 +59,6 @@ Labels ReadOpenPoseFolder(const std::filesystem::path& folder, const Layout* lay
   return OpenPoseLabels(std::move(frames), layout, folder.string());
 }
 
-size_t EditDistance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t{0});
-  for (size_t i = 0; i < a.size(); ++i) {
-    size_t diagonal = row[0]++;
-    for (size_t j = 0; j < b.size(); ++j) {
-      const size_t replaced = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
 // What stands in a file that has no labels: its kind, and an object's first keys.
 std::string Contents(const JsonValue& root) {
   if (root.Is(JsonValue::Kind::kArray)) return "a list";
@@ -126,15 +111,6 @@ std::string LayoutSizes() {
     sizes +=
         fmt::format("{}{} ({})", sizes.empty() ? "" : ", ", layout.name, layout.landmarks.size());
   return sizes;
-}
-
-std::string NearestName(std::string_view name, const std::vector<std::string>& names) {
-  constexpr size_t kLongestName = 64;  // a longer one resembles nothing
-  const auto distance = [&](const std::string& other) {
-    return EditDistance(name.substr(0, kLongestName), other);
-  };
-  return *std::min_element(names.begin(), names.end(),
-                           [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
 }
 
 }  // namespace poselift

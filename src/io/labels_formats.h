@@ -41,7 +41,4 @@ const Layout* FindLayoutBySize(size_t num_landmarks);
 // "body15 (15), coco17 (17), ..."
 std::string LayoutSizes();
 
-// The name of the list that is the fewest letters away.
-std::string NearestName(std::string_view name, const std::vector<std::string>& names);
-
 }  // namespace poselift

@@ -16,6 +16,7 @@
 #include "src/io/labels.h"
 #include "src/io/labels_formats.h"
 #include "src/io/text_scanner.h"
+#include "src/nearest_names.h"
 
 namespace poselift {
 namespace {
@@ -66,7 +67,8 @@ InputError UnknownJoint(const JsonValue& landmark, std::string_view name, const 
   for (const Landmark& other : layout.landmarks) known.emplace_back(other.name);
   for (const JointInfo& joint : poselift::Joints()) known.emplace_back(joint.name);
   return landmark.Error(fmt::format("found the unknown joint {} (layout {}), wanted perhaps \"{}\"",
-                                    Quoted(name), layout.name, NearestName(name, known)));
+                                    Quoted(name), layout.name,
+                                    NearestNames(name, known, 1).front()));
 }
 
 LabelState ReadState(const JsonValue& state) {

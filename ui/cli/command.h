@@ -25,6 +25,8 @@ using Run = std::function<int()>;
 CLI::App* AddConvert(CLI::App* app, Run* run);
 CLI::App* AddInfo(CLI::App* app, Run* run);
 CLI::App* AddLift(CLI::App* app, Run* run);
+CLI::App* AddPlot(CLI::App* app, Run* run);
+CLI::App* AddSmooth(CLI::App* app, Run* run);
 CLI::App* AddTrain(CLI::App* app, Run* run);
 CLI::App* AddEvaluate(CLI::App* app, Run* run);
 

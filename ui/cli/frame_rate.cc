@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the poselift authors
 #include "ui/cli/frame_rate.h"
 
+#include <fmt/format.h>
+
 #include <CLI/Error.hpp>
 #include <CLI/StringTools.hpp>
 #include <CLI/TypeTools.hpp>
@@ -9,16 +11,27 @@
 #include <string>
 
 namespace poselift::cli {
+namespace {
 
-CLI::Validator IsFrameRate() {
-  constexpr double kLowest_hz = 1e-3, kHighest_hz = 1e6;
-  const auto flaw = [](const std::string& text) -> std::string {
-    double rate_hz = 0.0;
-    const bool is_rate =
-        CLI::detail::lexical_cast(text, rate_hz) && rate_hz >= kLowest_hz && rate_hz <= kHighest_hz;
-    return is_rate ? "" : "found " + text + ", wanted a rate from 0.001 to 1e6";
+CLI::Validator InRange(double lowest, double highest, const std::string& kind,
+                       const std::string& name) {
+  const auto flaw = [=](const std::string& text) -> std::string {
+    double value = 0.0;
+    const bool is_in_range =
+        CLI::detail::lexical_cast(text, value) && value >= lowest && value <= highest;
+    return is_in_range
+               ? ""
+               : fmt::format("found {}, wanted {} from {} to {}", text, kind, lowest, highest);
   };
-  return {flaw, "HZ"};
+  return {flaw, name};
 }
+
+}  // namespace
+
+CLI::Validator IsNumber(double lowest, double highest) {
+  return InRange(lowest, highest, "a number", "NUMBER");
+}
+
+CLI::Validator IsFrameRate() { return InRange(1e-3, 1e6, "a rate", "HZ"); }
 
 }  // namespace poselift::cli

@@ -19,7 +19,8 @@ using AddCommand = CLI::App* (*)(CLI::App*, Run*);
 constexpr std::array kCommands = {
     AddCommand{poselift::cli::AddConvert},  AddCommand{poselift::cli::AddInfo},
     AddCommand{poselift::cli::AddLift},     AddCommand{poselift::cli::AddTrain},
-    AddCommand{poselift::cli::AddEvaluate},
+    AddCommand{poselift::cli::AddEvaluate}, AddCommand{poselift::cli::AddSmooth},
+    AddCommand{poselift::cli::AddPlot},
 };
 
 int RunGuarded(const Run& run) {

@@ -131,6 +131,36 @@ TEST(Interpolation, NoneOneOrTwoFramesAreEnough) {
   }
 }
 
+TEST(Interpolation, GapsUpToTheLongestAreFilledAndLongerOnesStay) {
+  Eigen::RowVectorXd curve(12);
+  curve << kNaN, kNaN, 2, kNaN, kNaN, 5, kNaN, kNaN, kNaN, 9, 10, kNaN;
+  for (const GapFill method : {GapFill::kLinear, GapFill::kNaturalSpline}) {
+    const FilledCurves two = FillGaps(curve, method, 2);
+    Eigen::RowVectorXd expected(12);
+    expected << 2, 2, 2, 3, 4, 5, kNaN, kNaN, kNaN, 9, 10, 10;
+    EXPECT_TRUE((two.curves.array().isNaN() == expected.array().isNaN()).all());
+    EXPECT_TRUE(MatrixNear(two.curves.leftCols(6), expected.leftCols(6), 1e-12));
+    EXPECT_EQ(two.curves(0, 11), 10.0);
+    EXPECT_EQ(two.filled.count(), 5);
+    EXPECT_TRUE(FillGaps(curve, method, 3).curves.allFinite());
+    EXPECT_TRUE(SameCurves(FillGaps(curve, method, 0).curves, curve));
+    // The ends as well.
+    EXPECT_EQ(FillGaps(curve, method, 1).curves.array().isNaN().count(), 7);
+  }
+  EXPECT_THROW(FillGaps(curve, GapFill::kLinear, -1), InputError);
+}
+
+// What lies beyond a long gap has no say.
+TEST(Interpolation, TheSplineEndsAtALongGap) {
+  Eigen::RowVectorXd curve = Keep(SampleCurve(30), {0, 2, 5, 9, 20, 23, 29});
+  const Eigen::RowVectorXd before = FillGaps(curve, GapFill::kNaturalSpline, 6).curves;
+  curve.tail(10) *= -100.0;
+  const Eigen::RowVectorXd after = FillGaps(curve, GapFill::kNaturalSpline, 6).curves;
+  EXPECT_TRUE(SameCurves(before.head(20), after.head(20)));
+  EXPECT_TRUE(
+      SameCurves(before.head(10), FillGaps(Keep(SampleCurve(30), {0, 2, 5, 9}).head(10)).curves));
+}
+
 TEST(Interpolation, AnInfiniteEntryIsRefused) {
   EXPECT_THROW(FillGaps(Eigen::RowVector3d(0.0, kNaN, kInfinity)), InputError);
 }

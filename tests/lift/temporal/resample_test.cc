@@ -9,6 +9,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <vector>
 
 #include "src/input_error.h"
 #include "tests/support/cmu_like_skeleton.h"
@@ -83,6 +85,37 @@ TEST(Resample, RefusesAFrameTimeThatIsNotPositive) {
   const Motion motion = SteadyMotion(3, 0.1);
   for (const double frame_time_s : {0.0, -1.0, std::nan("")})
     EXPECT_THROW(Resample(motion, frame_time_s), InputError);
+}
+
+TEST(Resample, UnevenTimesOfASteadyMotionGiveTheSteadyMotion) {
+  const Motion fine = SteadyMotion(101, 0.01);
+  std::vector<SkeletonPose> poses;
+  std::vector<double> times_s;
+  for (const int f : {0, 3, 4, 9, 12, 18, 20, 25, 31, 36, 40, 47, 50}) {
+    poses.push_back(fine.frames[f]);
+    times_s.push_back(5.0 + 0.01 * f);
+  }
+  const Motion even = ResampleUneven(fine.skeleton, poses, times_s, 0.05);
+  ASSERT_EQ(even.frames.size(), 11u);
+  for (size_t k = 0; k < even.frames.size(); ++k) ExpectSame(even.frames[k], fine.frames[5 * k], 1e-9);
+}
+
+TEST(Resample, NothingIsKnownInAGapOrBesideAnUnknownPose) {
+  const Motion fine = SteadyMotion(101, 0.01);
+  std::vector<SkeletonPose> poses;
+  std::vector<double> times_s;
+  for (const int f : {0, 5, 11, 15, 40, 45, 50}) {
+    poses.push_back(f == 5 ? UnknownPose(fine.skeleton) : fine.frames[f]);
+    times_s.push_back(0.01 * f);
+  }
+  const Motion even = ResampleUneven(fine.skeleton, poses, times_s, 0.05);
+  std::vector<bool> known;
+  for (const SkeletonPose& pose : even.frames) known.push_back(IsKnown(pose));
+  EXPECT_EQ(known, (std::vector<bool>{true, false, false, true, false, false, false, false, true,
+                                      true, true}));
+  EXPECT_THROW(ResampleUneven(fine.skeleton, poses, times_s, 0.0), InputError);
+  times_s.pop_back();
+  EXPECT_THROW(ResampleUneven(fine.skeleton, poses, times_s, 0.05), std::invalid_argument);
 }
 
 }  // namespace

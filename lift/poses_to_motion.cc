@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "lift/poses_to_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "lift/ik/inverse_kinematics.h"
+#include "lift/temporal/frame_grid.h"
+#include "lift/temporal/resample.h"
+#include "src/forward_kinematics.h"
+#include "src/input_error.h"
+#include "src/joint_angles.h"
+
+namespace poselift {
+namespace {
+
+constexpr double kFloorQuantile = 0.05;
+
+// Half a turn about x: y up, z towards the camera. Its own inverse.
+Eigen::Vector3d LevelFromCam(const Eigen::Vector3d& x) { return {x.x(), -x.y(), -x.z()}; }
+const Eigen::Quaterniond kLevelFromCam(0.0, 1.0, 0.0, 0.0);
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return kUnknown;
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+int FindPerson(const Poses& poses, const std::optional<int>& wanted) {
+  std::vector<int> ids;
+  for (const FramePoses& frame : poses.frames)
+    for (const PersonPose& person : frame.people) {
+      if (person.id == wanted || !wanted) return person.id;
+      if (std::find(ids.begin(), ids.end(), person.id) == ids.end()) ids.push_back(person.id);
+    }
+  if (ids.empty()) throw InputError("found poses without any person, wanted at least one");
+  throw InputError(
+      fmt::format("found no person {}, wanted one of {}", *wanted, fmt::join(ids, ", ")));
+}
+
+// The person in each frame if there is a pose of theirs, else null.
+std::vector<const PersonPose*> FramesOf(const Poses& poses, int person_id, bool with_filled) {
+  std::vector<const PersonPose*> frames;
+  for (const FramePoses& frame : poses.frames) {
+    frames.push_back(nullptr);
+    for (const PersonPose& person : frame.people)
+      if (person.id == person_id &&
+          (person.status == "ok" || (with_filled && person.status == kFilledStatus)))
+        frames.back() = &person;
+  }
+  if (std::all_of(frames.begin(), frames.end(), [](auto* person) { return !person; }))
+    throw InputError(
+        fmt::format("found no frame in which person {} has the status \"ok\"", person_id));
+  return frames;
+}
+
+std::vector<double> TimesOf(const Poses& poses, const std::optional<double>& frame_time_s) {
+  std::vector<double> times_s;
+  for (size_t f = 0; f < poses.frames.size(); ++f) {
+    if (!frame_time_s && !poses.frames[f].time_s)
+      throw InputError(fmt::format(
+          "frames[{}]: found no time_s, wanted the time of each frame, or their rate (--fps)", f));
+    times_s.push_back(frame_time_s ? static_cast<double>(f) * *frame_time_s
+                                   : *poses.frames[f].time_s);
+  }
+  return times_s;
+}
+
+CameraTrack FindCamera(const std::vector<const PersonPose*>& people) {
+  CameraTrack camera;
+  camera.has_depth = std::all_of(people.begin(), people.end(), [](const PersonPose* person) {
+    return !person || person->pelvis_in_cam_m.allFinite();
+  });
+  std::vector<double> focals_px, x_px, y_px;
+  for (const PersonPose* person : people) {
+    if (!person || !std::isfinite(person->scale_px_per_m) || !person->translation_px.allFinite())
+      continue;
+    Eigen::Vector2d centre_px = person->translation_px;
+    if (camera.has_depth) {
+      centre_px -= person->scale_px_per_m * person->pelvis_in_cam_m.head<2>();
+      focals_px.push_back(person->scale_px_per_m * person->pelvis_in_cam_m.z());
+    }
+    x_px.push_back(centre_px.x());
+    y_px.push_back(centre_px.y());
+  }
+  camera.centre_px = {Median(std::move(x_px)), Median(std::move(y_px))};
+  camera.focal_px = Median(std::move(focals_px));
+  return camera;
+}
+
+// Zero where nobody knows: a person in space without any picture.
+Eigen::Vector3d PelvisInCam_m(const PersonPose& person, const CameraTrack& camera) {
+  if (camera.has_depth) return person.pelvis_in_cam_m;
+  const Eigen::Vector2d in_plane_m =
+      (person.translation_px - camera.centre_px) / person.scale_px_per_m;
+  if (!in_plane_m.allFinite()) return Eigen::Vector3d::Zero();
+  return {in_plane_m.x(), in_plane_m.y(), 0.0};
+}
+
+// On level axes, the camera at the origin; unknown where there is no pose.
+std::vector<SkeletonPose> SolveFrames(const std::vector<const PersonPose*>& people,
+                                      const Skeleton& skeleton, const ProgressFn& progress,
+                                      PosesMotion* result) {
+  const InverseKinematics ik(skeleton);
+  std::vector<SkeletonPose> poses(people.size(), UnknownPose(skeleton));
+  IkHints hints;
+  for (size_t f = 0; f < people.size(); ++f) {
+    if (progress) progress(static_cast<double>(f) / static_cast<double>(people.size()));
+    if (!people[f]) continue;
+    Pose3 target_m = people[f]->joints_in_cam_m;
+    for (int j = 0; j < kNumJoints; ++j) target_m.col(j) = LevelFromCam(target_m.col(j));
+    const IkResult solved = ik.Solve(target_m, hints);
+    if (!IsUsable(solved.status)) {
+      ++result->num_ik_failures;
+      continue;
+    }
+    result->worst_ik_rms_m = std::max(result->worst_ik_rms_m, solved.rms_m);
+    hints.start = solved.pose;
+    poses[f] = solved.pose;
+    poses[f].root_in_world_m += LevelFromCam(PelvisInCam_m(*people[f], result->camera));
+  }
+  return poses;
+}
+
+// Straight lines through values that are known at some times.
+class Polyline {
+ public:
+  void Add(double time_s, double value) {
+    if (!std::isfinite(value)) return;
+    times_s_.push_back(time_s);
+    values_.push_back(value);
+  }
+  double At(double time_s) const {
+    if (values_.empty()) return kUnknown;
+    const auto after = std::lower_bound(times_s_.begin(), times_s_.end(), time_s);
+    if (after == times_s_.begin()) return values_.front();
+    if (after == times_s_.end()) return values_.back();
+    const auto i = after - times_s_.begin();
+    const double part = (time_s - times_s_[i - 1]) / (times_s_[i] - times_s_[i - 1]);
+    return values_[i - 1] + part * (values_[i] - values_[i - 1]);
+  }
+
+ private:
+  std::vector<double> times_s_, values_;
+};
+
+void PlaceOnGrid(const std::vector<SkeletonPose>& poses, const std::vector<double>& times_s,
+                 const FrameGrid& grid, const Skeleton& skeleton, PosesMotion* result) {
+  result->is_resampled = !grid.is_even;
+  if (grid.is_even) {
+    result->motion = {skeleton, grid.frame_time_s, {}};
+    result->motion.frames.assign(grid.places.back() + 1, UnknownPose(skeleton));
+    result->source_frames.assign(grid.places.back() + 1, -1);
+    for (size_t i = 0; i < poses.size(); ++i) {
+      result->motion.frames[grid.places[i]] = poses[i];
+      result->source_frames[grid.places[i]] = static_cast<int>(i);
+    }
+  } else {
+    result->motion = ResampleUneven(skeleton, poses, times_s, grid.frame_time_s);
+    result->source_frames.assign(result->motion.frames.size(), -1);
+  }
+}
+
+// World's origin on the floor, below the first known pelvis.
+void StandOnFloor(PosesMotion* result) {
+  std::vector<double> lowest_m;
+  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
+  for (const SkeletonPose& pose : result->motion.frames) {
+    if (!IsKnown(pose)) continue;
+    if (lowest_m.empty()) origin_m = pose.root_in_world_m;
+    const Pose3 joints_m = JointPositions(result->motion.skeleton, pose);
+    double lowest = HUGE_VAL;
+    for (Eigen::Index j = 0; j < joints_m.cols(); ++j)
+      if (joints_m.col(j).allFinite()) lowest = std::min(lowest, joints_m(1, j));
+    lowest_m.push_back(lowest);
+  }
+  if (lowest_m.empty()) throw InputError("found no pose that a skeleton could take");
+  const auto quantile =
+      lowest_m.begin() +
+      static_cast<ptrdiff_t>(kFloorQuantile * static_cast<double>(lowest_m.size()));
+  std::nth_element(lowest_m.begin(), quantile, lowest_m.end());
+  origin_m.y() = *quantile;
+  for (SkeletonPose& pose : result->motion.frames) pose.root_in_world_m -= origin_m;
+  result->camera.world_in_level_cam_m = origin_m;
+}
+
+void SetPlaceInPicture(const CameraTrack& camera, size_t frame,
+                       const Eigen::Vector3d& pelvis_in_cam_m, PersonPose* person) {
+  if (camera.has_depth) {
+    person->pelvis_in_cam_m = pelvis_in_cam_m;
+    person->scale_px_per_m = camera.focal_px / pelvis_in_cam_m.z();
+  } else if (frame < camera.scale_px_per_m.size()) {
+    person->scale_px_per_m = camera.scale_px_per_m[frame];
+  }
+  person->translation_px = camera.centre_px + person->scale_px_per_m * pelvis_in_cam_m.head<2>();
+}
+
+}  // namespace
+
+PosesMotion PosesToMotion(const Poses& poses, const Skeleton& skeleton,
+                          const PosesToMotionOptions& options, const ProgressFn& progress) {
+  PosesMotion result;
+  result.person_id = FindPerson(poses, options.person_id);
+  const std::vector<const PersonPose*> people =
+      FramesOf(poses, result.person_id, options.with_filled);
+  const std::vector<double> times_s = TimesOf(poses, options.frame_time_s);
+  const FrameGrid grid = FitFrameGrid(times_s);
+  result.camera = FindCamera(people);
+  PlaceOnGrid(SolveFrames(people, skeleton, progress, &result), times_s, grid, skeleton, &result);
+  StandOnFloor(&result);
+
+  Polyline scales_px_per_m;
+  for (size_t f = 0; f < people.size(); ++f)
+    if (people[f]) scales_px_per_m.Add(times_s[f], people[f]->scale_px_per_m);
+  for (size_t k = 0; k < result.motion.frames.size(); ++k) {
+    const int source = result.source_frames[k];
+    const double time_s =
+        source >= 0 ? times_s[source] : grid.first_s + static_cast<double>(k) * grid.frame_time_s;
+    result.camera.scale_px_per_m.push_back(scales_px_per_m.At(time_s));
+    result.images.push_back(source >= 0 ? poses.frames[source].image : "");
+    result.is_filled.push_back(source >= 0 && people[source] &&
+                               people[source]->status == kFilledStatus);
+    if (!options.frame_time_s) result.times_s.push_back(time_s);
+  }
+  return result;
+}
+
+Poses MotionToPoses(const Motion& motion, const PosesMotion& source,
+                    const std::vector<std::string>& statuses) {
+  if (statuses.size() != motion.frames.size())
+    throw std::invalid_argument("MotionToPoses: a status for each frame is wanted");
+  const Articulation body(motion.skeleton);
+  const Eigen::MatrixXd angles_deg = ReadJointAnglesDeg(motion);
+  Poses poses;
+  for (size_t f = 0; f < motion.frames.size(); ++f) {
+    const auto column = angles_deg.col(static_cast<Eigen::Index>(f));
+    FramePoses& frame = poses.frames.emplace_back();
+    if (f < source.images.size()) frame.image = source.images[f];
+    if (f < source.times_s.size()) frame.time_s = source.times_s[f];
+    PersonPose& person = frame.people.emplace_back();
+    person.id = source.person_id;
+    person.status = statuses[f];
+    if (statuses[f] == kUnknownStatus) {
+      person.message = "in a gap that is too long to be filled";
+      continue;
+    }
+    const SkeletonPose& pose = motion.frames[f];
+    const Eigen::Vector3d pelvis_m = pose.root_in_world_m + source.camera.world_in_level_cam_m;
+    const Pose3 joints_m = JointPositions(body, pose).colwise() - pose.root_in_world_m;
+    for (int j = 0; j < kNumJoints; ++j)
+      person.joints_in_cam_m.col(j) = LevelFromCam(joints_m.col(j));
+    person.rotation_cam_from_body = kLevelFromCam * pose.world_from_root;
+    SetPlaceInPicture(source.camera, f, LevelFromCam(pelvis_m), &person);
+    for (Eigen::Index a = 0; a < column.size(); ++a)
+      person.angles_deg.emplace_back(JointAngles()[a].name, column[a]);
+  }
+  return poses;
+}
+
+}  // namespace poselift

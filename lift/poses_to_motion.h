@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/motion.h"
+#include "src/poses.h"
+#include "src/progress.h"
+
+namespace poselift {
+
+// One person of lifted poses (poses.json) as a motion, and the way back.
+//
+// World is that of a level camera: y up, x to the camera's right, z towards it.
+// Its origin lies below the pelvis of the first known frame, at the height of
+// the floor: the 5 % quantile over the frames of the lowest joint's height.
+//
+// Where the pelvis is known (pelvis_in_cam_m) the root is there. Else it is in
+// the picture's plane, where weak perspective has it,
+//   x_m = (translation_px - centre_px) / scale_px_per_m,
+// with its depth 0 throughout. centre_px stands for the principal point, which
+// nobody told: it is the median of the translations, so that noise of the scale
+// moves the body as little as can be.
+
+struct PosesToMotionOptions {
+  std::optional<int> person_id;        // else the first person of the first frame with any
+  std::optional<double> frame_time_s;  // instead of the frames' times
+  // Whether frames with the status "filled", guessed when the motion was
+  // smoothed, count as known.
+  bool with_filled = false;
+};
+
+// The statuses of frames that were filled, and of which nothing is known.
+inline constexpr std::string_view kFilledStatus = "filled";
+inline constexpr std::string_view kUnknownStatus = "not known";
+
+// What it takes to put the motion back before the camera.
+struct CameraTrack {
+  Eigen::Vector3d world_in_level_cam_m = Eigen::Vector3d::Zero();  // world's origin, level axes
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
+  bool has_depth = false;              // pelvis_in_cam_m was known
+  double focal_px = kUnknown;          // with depth: scale = focal_px / depth
+  std::vector<double> scale_px_per_m;  // without: of each frame, straight lines over gaps
+};
+
+struct PosesMotion {
+  Motion motion;  // unknown frames where the person has no pose
+  int person_id = 0;
+  bool is_resampled = false;  // the times' steps were uneven: resampled to the median step
+  // Of each frame of the motion: its frame in the poses (-1: there is none), its
+  // time (none when frame_time_s was given) and its picture (may be empty).
+  std::vector<int> source_frames;
+  std::vector<double> times_s;
+  std::vector<std::string> images;
+  std::vector<bool> is_filled;  // by its status; with with_filled alone
+  CameraTrack camera;
+  double worst_ik_rms_m = 0.0;  // how far the skeleton's joints are from the poses'
+  int num_ik_failures = 0;      // poses that no skeleton fits: unknown frames too
+};
+
+// Joint angles by inverse kinematics, each frame from the one before.
+// Throws InputError when there is no such person, when no frame of theirs is
+// ok, or when the times are no times (frame_grid.h) or missing.
+PosesMotion PosesToMotion(const Poses& poses, const Skeleton& skeleton,
+                          const PosesToMotionOptions& options = {},
+                          const ProgressFn& progress = {});
+
+// A motion as poses of one person, before the camera of `source` and with its
+// times and pictures. statuses: of each frame; those of kUnknownStatus get no
+// pose. What was measured on labels (reprojection, atoms) is left out.
+// Throws std::invalid_argument when the numbers of frames differ, InputError for
+// a skeleton without the bones of the CMU skeleton.
+Poses MotionToPoses(const Motion& motion, const PosesMotion& source,
+                    const std::vector<std::string>& statuses);
+
+}  // namespace poselift

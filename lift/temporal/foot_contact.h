@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "src/joints.h"
+#include "src/motion.h"
+
+namespace poselift {
+
+// When a foot stands on the floor. Two points of each foot are watched, because
+// in a step each is still at its own time: the ankle from the heel's strike
+// until the heel rises, the ball of the foot (joint "foot") from when the foot
+// is flat until the toes leave. A point is in contact from when it is both
+// near its level and slow until it is neither any more (hysteresis):
+//
+//   begins   height < on_height_m   and  speed < on_speed
+//   ends     height > off_height_m  or   speed > off_speed
+//
+// height: above the level of the point, which is where its lower joints of all
+// frames are (level_quantile of the lower of both sides): ankles lie higher in
+// the foot than balls, and floors are seldom at 0. speed: horizontal, between
+// the frames half a window before and after. The foot is in contact when one of
+// its points is. Thresholds are for a leg (hip to ankle) of 0.85 m; heights
+// scale with the leg's length L, speeds with sqrt(L), as those of walking do
+// (Froude number v^2 / g L).
+//
+// Level floors only: on stairs, ramps or a moving belt nothing is found, or the
+// wrong thing.
+struct FootContactOptions {
+  double on_height_m = 0.05;
+  double off_height_m = 0.08;
+  double on_speed_m_per_s = 0.4;
+  double off_speed_m_per_s = 0.7;
+  double speed_window_s = 0.05;
+  double min_contact_s = 0.04;  // shorter ones are none
+  double level_quantile = 0.05;
+
+  std::string Validate() const;  // empty, or which option is wrong and why
+};
+
+// The watched points.
+inline constexpr std::array<int, 4> kFootJoints = {joint::kLeftAnkle, joint::kLeftFoot,
+                                                   joint::kRightAnkle, joint::kRightFoot};
+
+struct FootContacts {
+  // Of each of kFootJoints, frame by frame.
+  std::array<std::vector<bool>, 4> joints;
+  std::array<double, 4> levels_m{};  // the height at which it stands
+  double leg_length_m = 0.0;
+
+  std::vector<bool> Left() const;  // of the foot
+  std::vector<bool> Right() const;
+};
+
+// Unknown frames (motion.h) are in no contact. Throws InputError when the
+// options are invalid or the skeleton lacks a hip, ankle or foot.
+FootContacts FindFootContacts(const Motion& motion, const FootContactOptions& options = {});
+
+// How far feet slide while in contact: the root mean square horizontal distance
+// of the points from their mean places, contact by contact, mm. -1 without any.
+double FootSlide_mm(const Motion& motion, const FootContacts& contacts);
+
+}  // namespace poselift

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "lift/baselines/one_euro.h"
+#include "lift/baselines/savitzky_golay.h"
+#include "lift/smooth_motion.h"
+#include "src/motion.h"
+
+namespace poselift::cli {
+
+// Options of all methods; each takes its own.
+struct SmoothingOptions {
+  std::optional<double> cutoff_hz;  // else 6 Hz, less for slow cameras
+  SavitzkyGolayOptions savitzky_golay;
+  OneEuroOptions one_euro;
+};
+
+struct Smoothing {
+  MotionSmoother smoother;
+  std::string summary;  // what it does, with its numbers, for the report
+};
+
+// A row for each method; the first is the default.
+struct SmoothingMethod {
+  std::string_view name;
+  std::string_view about;  // for --help
+  Smoothing (*make)(const Motion& motion, const SmoothingOptions& options);
+};
+
+std::span<const SmoothingMethod> SmoothingMethods();
+
+}  // namespace poselift::cli
