@@ -29,8 +29,9 @@ struct PoseAlternative {
 
 struct PersonPose {
   int id = 0;
-  std::string status = "not run";  // "ok", or what went wrong in a word or two
-  std::string message;             // the same in a sentence; may be empty
+  // "ok", "filled" (guessed across a gap), or what went wrong in a word or two.
+  std::string status = "not run";
+  std::string message;  // the same in a sentence; may be empty
 
   // 3 x 23 with the pelvis at the origin, metres at the size of the skeleton
   // used; camera axes: x right, y down, z forward.

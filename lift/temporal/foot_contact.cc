@@ -16,7 +16,7 @@ namespace poselift {
 namespace {
 
 constexpr double kUsualLeg_m = 0.85;
-constexpr int kLevel = 1;  // y is up
+constexpr int kUp = 1;  // y
 
 // The watched points, 3 x T each; NaN where the frame is unknown.
 using FootPaths = std::array<Eigen::Matrix3Xd, 4>;
@@ -56,8 +56,7 @@ void RequireLegs(const Articulation& body) {
 double Level_m(const Eigen::Matrix3Xd& left_m, const Eigen::Matrix3Xd& right_m, double quantile) {
   std::vector<double> heights_m;
   for (Eigen::Index t = 0; t < left_m.cols(); ++t)
-    if (left_m.col(t).allFinite())
-      heights_m.push_back(std::min(left_m(kLevel, t), right_m(kLevel, t)));
+    if (left_m.col(t).allFinite()) heights_m.push_back(std::min(left_m(kUp, t), right_m(kUp, t)));
   if (heights_m.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto place = heights_m.begin() +
                      static_cast<ptrdiff_t>(quantile * static_cast<double>(heights_m.size() - 1));
@@ -76,28 +75,30 @@ double Speed_m_per_s(const Eigen::Matrix3Xd& path_m, Eigen::Index t, Eigen::Inde
   return std::hypot(step_m.x(), step_m.z()) / (static_cast<double>(after - before) * frame_time_s);
 }
 
-// The options with a leg's length put in.
-FootContactOptions ForLeg(FootContactOptions options, double leg_length_m) {
+// With a leg's length put in.
+FootContactOptions::Thresholds ForLeg(FootContactOptions::Thresholds thresholds,
+                                      double leg_length_m) {
   const double scale = leg_length_m / kUsualLeg_m;
-  options.on_height_m *= scale;
-  options.off_height_m *= scale;
-  options.on_speed_m_per_s *= std::sqrt(scale);
-  options.off_speed_m_per_s *= std::sqrt(scale);
-  return options;
+  thresholds.on_height_m *= scale;
+  thresholds.off_height_m *= scale;
+  thresholds.on_speed_m_per_s *= std::sqrt(scale);
+  thresholds.off_speed_m_per_s *= std::sqrt(scale);
+  return thresholds;
 }
 
 std::vector<bool> ContactsOf(const Eigen::Matrix3Xd& path_m, double level_m, double frame_time_s,
+                             const FootContactOptions::Thresholds& thresholds,
                              const FootContactOptions& options) {
   const auto half_window =
       std::max<Eigen::Index>(1, std::lround(0.5 * options.speed_window_s / frame_time_s));
   std::vector<bool> contact(static_cast<size_t>(path_m.cols()), false);
   bool stands = false;
   for (Eigen::Index t = 0; t < path_m.cols(); ++t) {
-    const double height_m = path_m(kLevel, t) - level_m;
+    const double height_m = path_m(kUp, t) - level_m;
     const double speed = Speed_m_per_s(path_m, t, half_window, frame_time_s);
     // False for NaN.
-    stands = stands ? height_m <= options.off_height_m && speed <= options.off_speed_m_per_s
-                    : height_m < options.on_height_m && speed < options.on_speed_m_per_s;
+    stands = stands ? height_m <= thresholds.off_height_m && speed <= thresholds.off_speed_m_per_s
+                    : height_m < thresholds.on_height_m && speed < thresholds.on_speed_m_per_s;
     contact[static_cast<size_t>(t)] = stands;
   }
   for (const FrameSpan& span : SpansOf(contact))
@@ -114,14 +115,12 @@ std::vector<bool> Either(std::vector<bool> a, const std::vector<bool>& b) {
 }  // namespace
 
 std::string FootContactOptions::Validate() const {
-  if (!(on_height_m > 0.0 && off_height_m >= on_height_m))
-    return fmt::format(
-        "FootContactOptions: on_height_m = {}, off_height_m = {}, wanted 0 < on <= off",
-        on_height_m, off_height_m);
-  if (!(on_speed_m_per_s > 0.0 && off_speed_m_per_s >= on_speed_m_per_s))
-    return fmt::format(
-        "FootContactOptions: on_speed_m_per_s = {}, off_speed_m_per_s = {}, wanted 0 < on <= off",
-        on_speed_m_per_s, off_speed_m_per_s);
+  for (const Thresholds& t : {ankle, ball})
+    if (!(t.on_height_m > 0.0 && t.off_height_m >= t.on_height_m && t.on_speed_m_per_s > 0.0 &&
+          t.off_speed_m_per_s >= t.on_speed_m_per_s))
+      return fmt::format(
+          "FootContactOptions: thresholds of {} and {} m, {} and {} m/s, wanted 0 < on <= off",
+          t.on_height_m, t.off_height_m, t.on_speed_m_per_s, t.off_speed_m_per_s);
   if (!(speed_window_s > 0.0 && min_contact_s >= 0.0))
     return fmt::format(
         "FootContactOptions: speed_window_s = {}, min_contact_s = {}, wanted above 0 and 0 or more",
@@ -141,10 +140,12 @@ FootContacts FindFootContacts(const Motion& motion, const FootContactOptions& op
   const FootPaths paths_m = PathsOf(motion, body);
   FootContacts contacts;
   contacts.leg_length_m = LegLength_m(body);
-  const FootContactOptions scaled = ForLeg(options, contacts.leg_length_m);
   for (size_t k = 0; k < kFootJoints.size(); ++k) {
     contacts.levels_m[k] = Level_m(paths_m[k % 2], paths_m[k % 2 + 2], options.level_quantile);
-    contacts.joints[k] = ContactsOf(paths_m[k], contacts.levels_m[k], motion.frame_time_s, scaled);
+    const auto thresholds =
+        ForLeg(k % 2 == 0 ? options.ankle : options.ball, contacts.leg_length_m);
+    contacts.joints[k] =
+        ContactsOf(paths_m[k], contacts.levels_m[k], motion.frame_time_s, thresholds, options);
   }
   return contacts;
 }

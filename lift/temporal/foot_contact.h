@@ -15,27 +15,31 @@ namespace poselift {
 // When a foot stands on the floor. Two points of each foot are watched, because
 // in a step each is still at its own time: the ankle from the heel's strike
 // until the heel rises, the ball of the foot (joint "foot") from when the foot
-// is flat until the toes leave. A point is in contact from when it is both
-// near its level and slow until it is neither any more (hysteresis):
+// is flat until the toes leave. A point is in contact from when it is both near
+// its level and slow, until it is one of the two no more by a laxer measure
+// (hysteresis):
 //
-//   begins   height < on_height_m   and  speed < on_speed
-//   ends     height > off_height_m  or   speed > off_speed
+//   begins   height < on_height_m    and  speed < on_speed
+//   ends     height > off_height_m   or   speed > off_speed
 //
-// height: above the level of the point, which is where its lower joints of all
-// frames are (level_quantile of the lower of both sides): ankles lie higher in
-// the foot than balls, and floors are seldom at 0. speed: horizontal, between
-// the frames half a window before and after. The foot is in contact when one of
-// its points is. Thresholds are for a leg (hip to ankle) of 0.85 m; heights
-// scale with the leg's length L, speeds with sqrt(L), as those of walking do
-// (Froude number v^2 / g L).
+// height: above the level of the point, which is where its lower joint of both
+// sides is in the lowest frames (level_quantile): ankles lie higher in the foot
+// than balls, and floors are seldom at 0. speed: horizontal, between the frames
+// half a window before and after. The foot is in contact when one of its points
+// is. Thresholds are for a leg (hip to ankle) of 0.85 m; heights scale with the
+// leg's length L, speeds with sqrt(L), as those of walking do (Froude number
+// v^2 / g L).
 //
 // Level floors only: on stairs, ramps or a moving belt nothing is found, or the
 // wrong thing.
 struct FootContactOptions {
-  double on_height_m = 0.05;
-  double off_height_m = 0.08;
-  double on_speed_m_per_s = 0.4;
-  double off_speed_m_per_s = 0.7;
+  struct Thresholds {
+    double on_height_m, off_height_m;
+    double on_speed_m_per_s, off_speed_m_per_s;
+  };
+  // It moves as soon as the heel rises, over a ball that still stands.
+  Thresholds ankle = {0.025, 0.03, 0.25, 0.3};
+  Thresholds ball = {0.05, 0.08, 0.4, 0.7};
   double speed_window_s = 0.05;
   double min_contact_s = 0.04;  // shorter ones are none
   double level_quantile = 0.05;

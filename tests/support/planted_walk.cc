@@ -40,7 +40,8 @@ PlantedWalk PlantWalk(int num_frames, double stance, double floor_height_m) {
   const Pose3 rest_m = JointPositions(ik.body(), SkeletonPose::Rest(walk.motion.skeleton));
   const double foot_m = (rest_m.col(joint::kLeftFoot) - rest_m.col(joint::kLeftAnkle)).norm();
   const double drop_m = kAnkleHeight_m - kBallHeight_m;
-  const Eigen::Vector3d ball_from_ankle_m(0.0, -drop_m, std::sqrt(foot_m * foot_m - drop_m * drop_m));
+  const Eigen::Vector3d ball_from_ankle_m(0.0, -drop_m,
+                                          std::sqrt(foot_m * foot_m - drop_m * drop_m));
   IkHints hints;
   hints.joint_weights = Eigen::VectorXd::Zero(kNumJoints);
   for (const int j : {joint::kPelvis, joint::kLeftAnkle, joint::kLeftFoot, joint::kRightAnkle,

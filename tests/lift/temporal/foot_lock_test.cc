@@ -90,7 +90,8 @@ TEST(FootLock, AWalkWhoseFeetStandStaysAsItIs) {
   const PlantedWalk walk = PlantWalk(90, 0.6, 0.0);
   const LockedFeet locked = LockFeet(walk.motion, PlantedContacts(walk));
   for (size_t t = 0; t < 90; ++t)
-    EXPECT_TRUE(testing::MatrixNear(locked.motion.frames[t].dofs, walk.motion.frames[t].dofs, 0.02));
+    EXPECT_TRUE(
+        testing::MatrixNear(locked.motion.frames[t].dofs, walk.motion.frames[t].dofs, 0.02));
 }
 
 TEST(FootLock, TheSameComesOutTwice) {

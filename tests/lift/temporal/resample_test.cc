@@ -97,7 +97,8 @@ TEST(Resample, UnevenTimesOfASteadyMotionGiveTheSteadyMotion) {
   }
   const Motion even = ResampleUneven(fine.skeleton, poses, times_s, 0.05);
   ASSERT_EQ(even.frames.size(), 11u);
-  for (size_t k = 0; k < even.frames.size(); ++k) ExpectSame(even.frames[k], fine.frames[5 * k], 1e-9);
+  for (size_t k = 0; k < even.frames.size(); ++k)
+    ExpectSame(even.frames[k], fine.frames[5 * k], 1e-9);
 }
 
 TEST(Resample, NothingIsKnownInAGapOrBesideAnUnknownPose) {
