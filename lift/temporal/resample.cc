@@ -75,14 +75,18 @@ Motion ResampleUneven(const Skeleton& skeleton, const std::vector<SkeletonPose>&
     while (before + 1 < times_s.size() && times_s[before + 1] <= now_s) ++before;
     const size_t after = std::min(before + 1, poses.size() - 1);
     const double step_s = times_s[after] - times_s[before];
-    const double part = step_s > 0.0 ? (now_s - times_s[before]) / step_s : 0.0;
-    if (part <= 0.0)
+    const double since_s = now_s - times_s[before];
+    const double near_s = kDigitsOfFiles * frame_time_s;
+    if (since_s <= near_s || after == before)
       resampled.frames.push_back(poses[before]);
+    else if (step_s - since_s <= near_s)
+      resampled.frames.push_back(poses[after]);
     else if (step_s > kWidestStep * frame_time_s || !IsKnown(poses[before]) ||
              !IsKnown(poses[after]))
       resampled.frames.push_back(UnknownPose(skeleton));
     else
-      resampled.frames.push_back(Between(poses[before], poses[after], part, are_rotations));
+      resampled.frames.push_back(
+          Between(poses[before], poses[after], since_s / step_s, are_rotations));
   }
   return resampled;
 }
