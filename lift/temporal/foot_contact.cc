@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,7 +17,6 @@ namespace poselift {
 namespace {
 
 constexpr double kUsualLeg_m = 0.85;
-constexpr int kUp = 1;  // y
 
 // The watched points, 3 x T each; NaN where the frame is unknown.
 using FootPaths = std::array<Eigen::Matrix3Xd, 4>;
@@ -53,17 +53,6 @@ void RequireLegs(const Articulation& body) {
           fmt::format("found no joint \"{}\", wanted two legs with feet", Joints()[j].name));
 }
 
-double Level_m(const Eigen::Matrix3Xd& left_m, const Eigen::Matrix3Xd& right_m, double quantile) {
-  std::vector<double> heights_m;
-  for (Eigen::Index t = 0; t < left_m.cols(); ++t)
-    if (left_m.col(t).allFinite()) heights_m.push_back(std::min(left_m(kUp, t), right_m(kUp, t)));
-  if (heights_m.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto place = heights_m.begin() +
-                     static_cast<ptrdiff_t>(quantile * static_cast<double>(heights_m.size() - 1));
-  std::nth_element(heights_m.begin(), place, heights_m.end());
-  return *place;
-}
-
 // Horizontal, across the window or what there is of it; NaN for a lone frame.
 double Speed_m_per_s(const Eigen::Matrix3Xd& path_m, Eigen::Index t, Eigen::Index half_window,
                      double frame_time_s) {
@@ -86,15 +75,57 @@ FootContactOptions::Thresholds ForLeg(FootContactOptions::Thresholds thresholds,
   return thresholds;
 }
 
-std::vector<bool> ContactsOf(const Eigen::Matrix3Xd& path_m, double level_m, double frame_time_s,
-                             const FootContactOptions::Thresholds& thresholds,
+double HeightAbove_m(const Eigen::Vector3d& floor, const Eigen::Vector3d& x_m) {
+  return x_m.y() - floor.dot(Eigen::Vector3d(1.0, x_m.x(), x_m.z()));
+}
+
+// The plane of the header, through the points of one kind.
+Eigen::Vector3d FitFloor(const std::vector<Eigen::Vector3d>& slow_m) {
+  constexpr int kRounds = 20;
+  constexpr double kOutlier_m = 0.02;
+  constexpr double kFewMetres = 0.5;  // of ground covered: too few to see a slope
+  if (slow_m.empty()) return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& x_m : slow_m) middle_m += x_m / static_cast<double>(slow_m.size());
+  Eigen::Vector3d floor = Eigen::Vector3d::Zero();  // about the middle
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& x_m : slow_m) {
+      const Eigen::Vector3d off_m = x_m - middle_m;
+      const Eigen::Vector3d row(1.0, off_m.x(), off_m.z());
+      const double relative = round == 0 ? 0.0 : HeightAbove_m(floor, off_m) / kOutlier_m;
+      const double weight = 1.0 / (1.0 + relative * relative);
+      normal += weight * row * row.transpose();
+      right += weight * off_m.y() * row;
+    }
+    const double ridge = normal(0, 0) * kFewMetres * kFewMetres;
+    normal.diagonal() += Eigen::Vector3d(0.0, ridge, ridge);
+    floor = normal.ldlt().solve(right);
+  }
+  floor[0] += middle_m.y() - floor[1] * middle_m.x() - floor[2] * middle_m.z();
+  return floor;
+}
+
+Eigen::Index HalfWindow(const FootContactOptions& options, double frame_time_s) {
+  return std::max<Eigen::Index>(1, std::lround(0.5 * options.speed_window_s / frame_time_s));
+}
+
+void AddSlow(const Eigen::Matrix3Xd& path_m, Eigen::Index half_window, double frame_time_s,
+             double speed_m_per_s, std::vector<Eigen::Vector3d>* slow_m) {
+  for (Eigen::Index t = 0; t < path_m.cols(); ++t)
+    if (Speed_m_per_s(path_m, t, half_window, frame_time_s) < speed_m_per_s)
+      slow_m->push_back(path_m.col(t));
+}
+
+std::vector<bool> ContactsOf(const Eigen::Matrix3Xd& path_m, const Eigen::Vector3d& floor,
+                             double frame_time_s, const FootContactOptions::Thresholds& thresholds,
                              const FootContactOptions& options) {
-  const auto half_window =
-      std::max<Eigen::Index>(1, std::lround(0.5 * options.speed_window_s / frame_time_s));
+  const Eigen::Index half_window = HalfWindow(options, frame_time_s);
   std::vector<bool> contact(static_cast<size_t>(path_m.cols()), false);
   bool stands = false;
   for (Eigen::Index t = 0; t < path_m.cols(); ++t) {
-    const double height_m = path_m(kUp, t) - level_m;
+    const double height_m = HeightAbove_m(floor, path_m.col(t));
     const double speed = Speed_m_per_s(path_m, t, half_window, frame_time_s);
     // False for NaN.
     stands = stands ? height_m <= thresholds.off_height_m && speed <= thresholds.off_speed_m_per_s
@@ -125,8 +156,6 @@ std::string FootContactOptions::Validate() const {
     return fmt::format(
         "FootContactOptions: speed_window_s = {}, min_contact_s = {}, wanted above 0 and 0 or more",
         speed_window_s, min_contact_s);
-  if (!(level_quantile >= 0.0 && level_quantile <= 1.0))
-    return fmt::format("FootContactOptions::level_quantile = {}, wanted 0 to 1", level_quantile);
   return "";
 }
 
@@ -140,12 +169,18 @@ FootContacts FindFootContacts(const Motion& motion, const FootContactOptions& op
   const FootPaths paths_m = PathsOf(motion, body);
   FootContacts contacts;
   contacts.leg_length_m = LegLength_m(body);
-  for (size_t k = 0; k < kFootJoints.size(); ++k) {
-    contacts.levels_m[k] = Level_m(paths_m[k % 2], paths_m[k % 2 + 2], options.level_quantile);
-    const auto thresholds =
-        ForLeg(k % 2 == 0 ? options.ankle : options.ball, contacts.leg_length_m);
-    contacts.joints[k] =
-        ContactsOf(paths_m[k], contacts.levels_m[k], motion.frame_time_s, thresholds, options);
+  const std::array kinds = {ForLeg(options.ankle, contacts.leg_length_m),
+                            ForLeg(options.ball, contacts.leg_length_m)};
+  const double frame_time_s = motion.frame_time_s;
+  for (size_t kind = 0; kind < kinds.size(); ++kind) {
+    std::vector<Eigen::Vector3d> slow_m;
+    for (const size_t k : {kind, kind + 2})
+      AddSlow(paths_m[k], HalfWindow(options, frame_time_s), frame_time_s,
+              kinds[kind].on_speed_m_per_s, &slow_m);
+    contacts.floors[kind] = FitFloor(slow_m);
+    for (const size_t k : {kind, kind + 2})
+      contacts.joints[k] =
+          ContactsOf(paths_m[k], contacts.floors[kind], frame_time_s, kinds[kind], options);
   }
   return contacts;
 }

@@ -22,15 +22,17 @@ namespace poselift {
 //   begins   height < on_height_m    and  speed < on_speed
 //   ends     height > off_height_m   or   speed > off_speed
 //
-// height: above the level of the point, which is where its lower joint of both
-// sides is in the lowest frames (level_quantile): ankles lie higher in the foot
-// than balls, and floors are seldom at 0. speed: horizontal, between the frames
-// half a window before and after. The foot is in contact when one of its points
-// is. Thresholds are for a leg (hip to ankle) of 0.85 m; heights scale with the
+// height: above the floor of the point, a plane h = f_0 + f_1 x + f_2 z through
+// where its joints of both sides are while slow, by least squares that give up
+// outliers (Cauchy's weights): ankles lie higher in the foot than balls, floors
+// are seldom at 0, and captured ones often tilt by a degree. Slopes are drawn to
+// 0 where the feet do not get about. speed: horizontal, between the frames half
+// a window before and after. The foot is in contact when one of its points is.
+// Thresholds are for a leg (hip to ankle) of 0.85 m; heights scale with the
 // leg's length L, speeds with sqrt(L), as those of walking do (Froude number
 // v^2 / g L).
 //
-// Level floors only: on stairs, ramps or a moving belt nothing is found, or the
+// Flat floors only: on stairs, ramps or a moving belt nothing is found, or the
 // wrong thing.
 struct FootContactOptions {
   struct Thresholds {
@@ -42,7 +44,6 @@ struct FootContactOptions {
   Thresholds ball = {0.05, 0.08, 0.4, 0.7};
   double speed_window_s = 0.05;
   double min_contact_s = 0.04;  // shorter ones are none
-  double level_quantile = 0.05;
 
   std::string Validate() const;  // empty, or which option is wrong and why
 };
@@ -54,7 +55,8 @@ inline constexpr std::array<int, 4> kFootJoints = {joint::kLeftAnkle, joint::kLe
 struct FootContacts {
   // Of each of kFootJoints, frame by frame.
   std::array<std::vector<bool>, 4> joints;
-  std::array<double, 4> levels_m{};  // the height at which it stands
+  // Of ankles and balls: f_0 (metres), f_1, f_2, the height at which they stand.
+  std::array<Eigen::Vector3d, 2> floors;
   double leg_length_m = 0.0;
 
   std::vector<bool> Left() const;  // of the foot
