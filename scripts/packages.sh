@@ -8,6 +8,7 @@ build_packages=(
   g++ cmake ninja-build
   libeigen3-dev libceres-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev
+  libopencv-video-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev libspdlog-dev zlib1g-dev libhnswlib-dev
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
 )

@@ -30,6 +30,7 @@ struct FrameLabels {
   int width_px = 0;   // 0: not said
   int height_px = 0;
   std::optional<double> time_s;
+  std::optional<int> frame;  // of the video that `image` names, counted from 0
   std::vector<PersonLabels> people;
 };
 

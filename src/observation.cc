@@ -12,17 +12,16 @@
 namespace poselift {
 namespace {
 
-// Larger side of the labels' bounding box, about the height of the body.
+constexpr double kBodyHeight_m = 1.6;  // ankle to crown
+
+}  // namespace
+
 double Extent_px(const PersonLabels& labels) {
   Eigen::AlignedBox2d box;
   for (const LandmarkLabel& label : labels.landmarks)
     if (label.state != LabelState::kAbsent) box.extend(label.x_px);
   return box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
 }
-
-constexpr double kBodyHeight_m = 1.6;  // ankle to crown
-
-}  // namespace
 
 int Observation::Count(ObservedPoint::Kind kind) const {
   return static_cast<int>(std::count_if(points.begin(), points.end(),

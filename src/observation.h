@@ -40,6 +40,10 @@ struct Observation {
   int Count(ObservedPoint::Kind kind) const;
 };
 
+// The larger side of the box around a person's labels, about the height of the
+// body; 0 without any.
+double Extent_px(const PersonLabels& labels);
+
 struct ObserveOptions {
   double relative_sigma = 0.012;       // of the labels' extent, where a label has no radius_px
   double occluded_sigma_factor = 3.0;  // an occluded joint's position is a guess

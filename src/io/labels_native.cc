@@ -122,6 +122,8 @@ FrameLabels ReadFrame(const JsonValue& json, const Layout& layout) {
     frame.height_px = height->Integer(0, kLargestPicture_px);
   if (const JsonValue* time = json.Find("time_s"))
     frame.time_s = time->Number(-kLargestTime_s, kLargestTime_s);
+  if (const JsonValue* index = json.Find("frame"))
+    frame.frame = index->Integer(0, std::numeric_limits<int>::max());
   std::set<int> ids;
   for (const JsonValue& person : json.At("people").Items()) {
     frame.people.push_back(ReadPerson(person, layout, static_cast<int>(frame.people.size())));
@@ -178,6 +180,7 @@ void AppendFrame(const FrameLabels& frame, std::string* out) {
     AppendNumber(*frame.time_s, out);
     *out += ", ";
   }
+  if (frame.frame) *out += fmt::format("\"frame\": {}, ", *frame.frame);
   *out += "\"people\": [";
   for (size_t i = 0; i < frame.people.size(); ++i) {
     *out += i > 0 ? ",\n" : "\n";

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <filesystem>
+#include <opencv2/videoio.hpp>
+#include <string_view>
+#include <vector>
+
+#include "src/io/frame_source.h"
+
+namespace poselift {
+
+// A video file, read forwards, whatever FFmpeg decodes.
+//
+// Times are the presentation times of the stream, from its first frame on, so
+// frames may lie unevenly; no frame rate is assumed. Frames are turned upright
+// by the rotation the file states. Packets that cannot be decoded are passed
+// over, so after damage fewer frames come, at their right times.
+//
+// Throws InputError, here and while it is read: no such file, empty, no video,
+// cut short (told by the container, or by less than half of the stated frames),
+// more than kMaxImagePixels (image.h), a size that changes, times that do not
+// grow. stderr is silent meanwhile (see quiet_stderr.h).
+class VideoFile : public FrameSource {
+ public:
+  explicit VideoFile(const std::filesystem::path& path);
+
+  cv::Size size_px() const override { return size_px_; }
+  std::optional<VideoFrame> Next() override;
+  std::optional<double> Skip_s() override;
+
+ private:
+  bool Grab();
+  bool Advance();
+  void CheckEnd() const;
+
+  std::filesystem::path path_;
+  cv::VideoCapture capture_;
+  cv::Size size_px_;
+  double stated_frames_ = 0.0;  // by the container, often an estimate
+  bool grabbed_ = false;        // the frame `index_` waits in capture_
+  int index_ = 0;
+  double time_s_ = 0.0;  // of that frame
+};
+
+// The time of each frame of a video file, in order: decodes it once.
+std::vector<double> ReadFrameTimes(const std::filesystem::path& path);
+
+// Whether a file with these first bytes (some hundreds) is a video: MP4 and
+// QuickTime, AVI, Matroska and WebM, MPEG, FLV, ASF, Ogg.
+bool IsVideo(std::string_view head);
+// The same of a file, or by its name's ending where it is too damaged to say.
+bool IsVideoFile(const std::filesystem::path& path);
+
+}  // namespace poselift
