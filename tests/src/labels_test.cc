@@ -103,6 +103,16 @@ TEST(NativeLabels, WrittenAndReadAgainAreTheSameFile) {
   EXPECT_EQ(testing::FileText(twice), testing::FileText(path));
 }
 
+TEST(NativeLabels, SayWhichFrameOfAVideoTheyAreOf) {
+  const std::string timed = Replaced(kNative, R"("time_s": 0.5)", R"("time_s": 0.5, "frame": 17)");
+  const auto path = testing::ScratchDir() / "frame.json";
+  WriteLabels(Read(timed), path);
+  EXPECT_EQ(ReadLabels(path).frames[0].frame, 17);
+  EXPECT_EQ(ReadLabels(path).frames[1].frame, std::nullopt);
+  const std::string negative = Replaced(kNative, R"("time_s": 0.5)", R"("frame": -1)");
+  EXPECT_NE(Complaint(negative).find("frames[0].frame"), std::string::npos);
+}
+
 TEST(NativeLabels, KeepEveryDigitOfAPosition) {
   Labels labels{"body15", {FrameLabels{}}};
   labels.frames[0].people.push_back({0, {{"neck", {0.1 + 0.2, 1e-7}, LabelState::kVisible, {}}}});

@@ -23,6 +23,8 @@
 #include "ui/cli/frame_rate.h"
 #include "ui/cli/lift_inputs.h"
 #include "ui/cli/lift_pictures.h"
+#include "ui/cli/lift_strip.h"
+#include "ui/cli/lift_video.h"
 #include "ui/cli/methods.h"
 #include "ui/cli/progress.h"
 #include "ui/cli/truth.h"
@@ -42,8 +44,19 @@ struct Options {
   std::string out = ".";
   std::string truth;
   double fps = 30.0;
+  bool propagate = true;
+  double max_gap_s = 1.0;
+  bool overlay_video = false;
   unsigned long seed = 1;
 };
+
+LiftInputs Gather(const Options& options) {
+  const auto video = FindVideo(options.inputs, options.labels);
+  if (!video) return GatherInputs(options.inputs, options.labels, options.layout);
+  Progress progress("labels", 0, "frames");
+  return GatherVideo(*video, {options.labels, options.layout, options.propagate, options.max_gap_s},
+                     progress.Callback());
+}
 
 // The time between frames: from their times where they have them.
 double FrameTime_s(const Labels& labels, double fps) {
@@ -66,9 +79,15 @@ void WriteResults(const LiftedLabels& lifted, const Labels& labels, const Skelet
 }
 
 void WriteAllPictures(const LiftedLabels& lifted, const LiftInputs& inputs,
-                      const std::optional<Camera>& camera, const fs::path& out) {
-  const Layout& layout = *FindLayout(inputs.labels.layout);
+                      const std::optional<Camera>& camera, const Options& options) {
+  const fs::path out = options.out;
   Progress progress("draw", static_cast<int64_t>(inputs.images.size()), "pictures");
+  if (!inputs.video.empty()) {
+    WriteVideoPictures(inputs, lifted.results, camera, options.overlay_video, out,
+                       progress.Callback());
+    return;
+  }
+  const Layout& layout = *FindLayout(inputs.labels.layout);
   for (size_t f = 0; f < inputs.images.size(); ++f) {
     if (!inputs.images[f].empty())
       WritePictures(inputs.images[f], inputs.labels.frames[f], layout, lifted.results[f], camera,
@@ -103,7 +122,7 @@ int Report(const LiftedLabels& lifted) {
 }
 
 int Lift(const Options& options) {
-  const LiftInputs inputs = GatherInputs(options.inputs, options.labels, options.layout);
+  const LiftInputs inputs = Gather(options);
   std::optional<Camera> camera;
   if (!options.camera.empty()) camera = ReadCameraYaml(options.camera);
   const Dictionary dictionary = ReadDictionary(
@@ -117,7 +136,7 @@ int Lift(const Options& options) {
   Progress progress("lift", static_cast<int64_t>(inputs.labels.frames.size()), "frames");
   const LiftedLabels lifted = LiftLabels(lifter, inputs.labels, camera, progress.Callback());
   WriteResults(lifted, inputs.labels, dictionary.skeleton, options);
-  WriteAllPictures(lifted, inputs, camera, options.out);
+  WriteAllPictures(lifted, inputs, camera, options);
   const int usable = Report(lifted);
   if (truth) PrintErrorAgainstTruth(lifted.poses, *truth);
   fmt::print("results in {}\n", options.out);
@@ -132,12 +151,13 @@ CLI::App* AddLift(CLI::App* app, Run* run) {
       app->add_subcommand("lift", "From labelled pictures to 3D poses with joint angles");
   command->footer(
       "Writes poses.json, poses.bvh, poses.amc with poses.asf, angles.csv and, for each picture,\n"
-      "NAME.overlay.png and NAME.view.png.\n"
-      "Example:\n  poselift lift skier.jpg --labels skier.coco.json --out out/");
+      "NAME.overlay.png and NAME.view.png, for a video NAME.strip.png.\n"
+      "Examples:\n  poselift lift skier.jpg --labels skier.coco.json --out out/\n"
+      "  poselift lift walk.mp4 --labels walk.labels.json --out out/");
   command->add_option("INPUT", options->inputs,
-                      "Pictures or folders of pictures; none: all frames of the labels file");
+                      "Pictures, folders of pictures or a video; none: what the labels file names");
   command->add_option("--labels", options->labels,
-                      "Labels of any format (default: NAME.labels.json beside each picture)");
+                      "Labels of any format (default: NAME.labels.json beside each input)");
   command->add_option("--layout", options->layout, "Landmarks of the labels, or auto")
       ->capture_default_str();
   command->add_option("--dictionary", options->dictionary, "Default: the one that ships");
@@ -151,6 +171,12 @@ CLI::App* AddLift(CLI::App* app, Run* run) {
   command->add_option("--fps", options->fps, "Of frames without times")
       ->check(IsFrameRate())
       ->capture_default_str();
+  command->add_flag("--propagate,!--no-propagate", options->propagate,
+                    "Video: label the frames between the labelled ones (default: yes)");
+  command->add_option("--max-gap-s", options->max_gap_s, "Video: labels lead no farther, in s")
+      ->check(CLI::Range(0.0, 60.0))
+      ->capture_default_str();
+  command->add_flag("--overlay-video", options->overlay_video, "Video: write NAME.overlay.avi too");
   command->add_option("--truth", options->truth, "True joints of the frames: prints the error");
   command->add_option("--seed", options->seed, "Accepted by every command; lifting draws nothing");
   command->callback([options] {

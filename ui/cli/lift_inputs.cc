@@ -52,7 +52,7 @@ std::vector<fs::path> NamedPictures(const Labels& labels, const fs::path& labels
 
 LiftInputs MatchByName(const Labels& labels, const std::vector<fs::path>& pictures,
                        const std::string& labels_file) {
-  LiftInputs matched{{labels.layout, {}}, pictures};
+  LiftInputs matched{{labels.layout, {}}, pictures, {}};
   if (pictures.size() == 1 && labels.frames.size() == 1) {
     matched.labels.frames = labels.frames;
     return matched;
@@ -97,7 +97,7 @@ LiftInputs GatherInputs(const std::vector<std::string>& inputs, const std::strin
   const std::vector<fs::path> pictures = FindPictures(inputs);
   if (labels_file.empty()) return LabelsBeside(pictures, layout);
   const Labels labels = ReadLabels(labels_file, layout);
-  if (pictures.empty()) return {labels, NamedPictures(labels, labels_file)};
+  if (pictures.empty()) return {labels, NamedPictures(labels, labels_file), {}};
   return MatchByName(labels, pictures, labels_file);
 }
 

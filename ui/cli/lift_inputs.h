@@ -14,6 +14,7 @@ namespace poselift::cli {
 struct LiftInputs {
   Labels labels;
   std::vector<std::filesystem::path> images;  // one for each frame; empty: no picture
+  std::filesystem::path video;                // that all frames are of; empty: none
 };
 
 // inputs: pictures, folders of pictures, or nothing: all frames of the labels

@@ -48,24 +48,36 @@ OverlayPerson ToOverlay(const PersonLabels& labels, const Layout& layout, const 
 
 }  // namespace
 
-void WritePictures(const std::filesystem::path& image, const FrameLabels& frame,
-                   const Layout& layout, const std::vector<LiftResult>& results,
-                   const std::optional<Camera>& camera, const std::filesystem::path& out_dir) {
+cv::Mat DrawPeople(const cv::Mat& picture, const FrameLabels& frame, const Layout& layout,
+                   const std::vector<LiftResult>& results, const std::optional<Camera>& camera) {
   OverlayInput overlay{frame.width_px, frame.height_px, {}};
   for (size_t p = 0; p < frame.people.size(); ++p)
     overlay.people.push_back(ToOverlay(frame.people[p], layout, results[p], camera));
-  const std::string name = image.stem();
-  WritePng(out_dir / (name + ".overlay.png"), DrawOverlay(ReadImage(image), overlay));
+  return DrawOverlay(picture, overlay);
+}
+
+cv::Mat DrawFirstView(const std::vector<LiftResult>& results, const std::string& title) {
   for (const LiftResult& result : results) {
     if (!result.IsUsable()) continue;
+    const double rms_px = result.poses.front().reprojection_rms_px;
     PoseViewInput view{
         .joints_in_cam_m = result.poses.front().joints_in_cam_m,
-        .title = fmt::format("{}: {:.1f} px RMS", name, result.poses.front().reprojection_rms_px)};
+        .title = fmt::format("{}{}{:.1f} px RMS", title, title.empty() ? "" : ": ", rms_px)};
     for (size_t i = 1; i < result.poses.size(); ++i)
       view.alternatives_in_cam_m.push_back(result.poses[i].joints_in_cam_m);
-    WritePng(out_dir / (name + ".view.png"), DrawPoseView(view));
-    break;
+    return DrawPoseView(view);
   }
+  return {};
+}
+
+void WritePictures(const std::filesystem::path& image, const FrameLabels& frame,
+                   const Layout& layout, const std::vector<LiftResult>& results,
+                   const std::optional<Camera>& camera, const std::filesystem::path& out_dir) {
+  const std::string name = image.stem();
+  WritePng(out_dir / (name + ".overlay.png"),
+           DrawPeople(ReadImage(image), frame, layout, results, camera));
+  const cv::Mat view = DrawFirstView(results, name);
+  if (!view.empty()) WritePng(out_dir / (name + ".view.png"), view);
 }
 
 }  // namespace poselift::cli
