@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <fstream>
+#include <opencv2/core.hpp>
 #include <system_error>
 
 #include "src/input_error.h"
@@ -43,16 +45,41 @@ InputError CutShort(const fs::path& path) {
                             fs::file_size(path), missing)};
 }
 
+// FFmpeg's threads complain of damage at any time, also while QuietStderr is not
+// there. Who sets the variable wants to hear them.
+void QuietDecoders() {
+  static const int set = ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
+  static_cast<void>(set);
+}
+
+// By how much a frame is to be turned clockwise to stand upright. OpenCV 4.6 has
+// the sign wrong and turns such frames upside down (opencv/opencv#22088).
+int TurnClockwise_deg(const cv::VideoCapture& capture) {
+  const int stated_deg = static_cast<int>(capture.get(cv::CAP_PROP_ORIENTATION_META));
+  constexpr bool kAnticlockwise = CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR == 6;
+  return (kAnticlockwise ? 360 - stated_deg : stated_deg) % 360;
+}
+
+void TurnUpright(int clockwise_deg, cv::Mat* picture) {
+  if (clockwise_deg == 90) cv::rotate(*picture, *picture, cv::ROTATE_90_CLOCKWISE);
+  if (clockwise_deg == 180) cv::rotate(*picture, *picture, cv::ROTATE_180);
+  if (clockwise_deg == 270) cv::rotate(*picture, *picture, cv::ROTATE_90_COUNTERCLOCKWISE);
+}
+
 }  // namespace
 
 VideoFile::VideoFile(const fs::path& path) : path_(path) {
   CheckFile(path);
   if (MissingBytes(path) > 0) throw CutShort(path);
+  QuietDecoders();
   const QuietStderr quiet;
   // Absolute, for FFmpeg takes "a:b.mp4" for a protocol.
   const bool open = capture_.open(fs::absolute(path).string(), cv::CAP_FFMPEG);
   size_px_ = {static_cast<int>(capture_.get(cv::CAP_PROP_FRAME_WIDTH)),
               static_cast<int>(capture_.get(cv::CAP_PROP_FRAME_HEIGHT))};
+  // Only now, for it swaps the sides of the size that is stated.
+  capture_.set(cv::CAP_PROP_ORIENTATION_AUTO, 0.0);
+  turn_clockwise_deg_ = TurnClockwise_deg(capture_);
   if (static_cast<double>(size_px_.width) * size_px_.height > kMaxImagePixels)
     throw InputError(path, fmt::format("has {} x {} pixels, wanted at most {:.0f} million",
                                        size_px_.width, size_px_.height, kMaxImagePixels / 1e6));
@@ -109,6 +136,7 @@ std::optional<VideoFrame> VideoFile::Next() {
     const QuietStderr quiet;
     try {
       capture_.retrieve(frame.bgr);
+      TurnUpright(turn_clockwise_deg_, &frame.bgr);
     } catch (const cv::Exception&) {
       frame.bgr.release();
     }

@@ -37,7 +37,8 @@ class VideoFile : public FrameSource {
 
   std::filesystem::path path_;
   cv::VideoCapture capture_;
-  cv::Size size_px_;
+  cv::Size size_px_;  // upright
+  int turn_clockwise_deg_ = 0;
   double stated_frames_ = 0.0;  // by the container, often an estimate
   bool grabbed_ = false;        // the frame `index_` waits in capture_
   int index_ = 0;

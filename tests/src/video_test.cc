@@ -2,14 +2,12 @@
 // Copyright (c) 2026 the poselift authors
 //
 // Videos are written here with OpenCV's encoders: frame i is grey of brightness
-// 20 + 8 i with a white corner, so that each tells which it is and how it is
+// 10 + 12 i with a white corner, so that each tells which it is and how it is
 // turned. Uneven times and a turn are planted in the boxes of an MP4. Files that
 // are cut short, empty or garbage must be refused, and nothing may reach stderr.
 #include "src/io/video.h"
 
 #include <gtest/gtest.h>
-
-#include <fstream>
 
 #include "src/input_error.h"
 #include "src/io/video_container.h"
@@ -33,7 +31,7 @@ const cv::Size kSize_px(96, 64);
 std::vector<cv::Mat> NumberedFrames() {
   std::vector<cv::Mat> frames;
   for (int i = 0; i < kNumFrames; ++i) {
-    frames.emplace_back(kSize_px, CV_8UC3, cv::Scalar::all(20 + 8 * i));
+    frames.emplace_back(kSize_px, CV_8UC3, cv::Scalar::all(10 + 12 * i));
     frames.back()(cv::Rect(0, 0, 24, 16)).setTo(cv::Scalar::all(255));
   }
   return frames;
@@ -48,7 +46,7 @@ fs::path NumberedVideo(const std::string& name) {
 
 int NumberOf(const cv::Mat& picture) {
   const cv::Rect middle(picture.cols / 2 - 4, picture.rows / 2 - 4, 8, 8);
-  return cvRound((cv::mean(picture(middle))[0] - 20.0) / 8.0);
+  return cvRound((cv::mean(picture(middle))[0] - 10.0) / 12.0);
 }
 
 std::vector<VideoFrame> ReadAll(const fs::path& path) {
