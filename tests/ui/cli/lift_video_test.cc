@@ -146,8 +146,9 @@ TEST(LiftVideo, RefusesBrokenVideosBeforeItWritesAnything) {
   testing::ExpectRefusals("man.mp4", whole,
                           {"lift {} --labels labels.json --dictionary d.pldict "
                            "--out out"},
-                          {{"truncated", whole.substr(0, whole.size() / 2), "cut short"},
-                           {"text", "no video\n", "is no video"}});
+                          {{"truncated", whole.substr(0, whole.size() / 2), ": is cut short"},
+                           {"text", "no video\n", ": is no video"}});
+  WriteInputs();
   ExpectRefusal("lift man.mp4 man.mp4 --labels labels.json --dictionary d.pldict --out out",
                 "is a video");
 }
