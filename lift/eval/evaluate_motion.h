@@ -46,7 +46,7 @@ struct MotionEvaluation {
   // Mean angle between a bone's rotations relative to its parent, root included.
   double angle_deg = 0.0;
   double acceleration_mm = 0.0;  // mean size of the error's second difference: jitter
-  double ms_per_frame = 0.0;     // of one thread's time
+  double ms_per_frame = 0.0;     // of processor time
 };
 
 struct EvaluateMotionOptions {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 
 #include "lift/temporal/resample.h"
 #include "src/dof_angles.h"
@@ -66,6 +67,11 @@ std::vector<Motion> WithoutJumps(const Motion& motion) {
   return pieces;
 }
 
+const std::string kMirrored = "/mirrored";
+
+// The name without the mark of the mirror image.
+std::string FileOf(const Trial& trial) { return trial.name.substr(0, trial.name.find('/')); }
+
 bool IsNamed(const MotionSource& source, const std::string& name) {
   return name == source.subject || name == source.amc.stem();
 }
@@ -81,6 +87,30 @@ void MotionDatabase::Append(const std::string& name, const FeatureMatrix& trial_
   trials.push_back({name, NumFrames(), static_cast<int>(trial_features.cols())});
   features.conservativeResize(Eigen::NoChange, features.cols() + trial_features.cols());
   features.rightCols(trial_features.cols()) = trial_features.cast<float>();
+}
+
+MotionDatabase SubsetOfTrials(const MotionDatabase& database,
+                              const std::vector<std::string>& names) {
+  MotionDatabase subset{database.skeleton, database.frame_time_s, {}, {}};
+  for (const Trial& trial : database.trials)
+    if (std::find(names.begin(), names.end(), FileOf(trial)) != names.end())
+      subset.Append(
+          trial.name,
+          database.features.middleCols(trial.first_frame, trial.num_frames).cast<double>());
+  return subset;
+}
+
+MotionDatabase DrawTrials(const MotionDatabase& database, int num_frames, uint64_t seed) {
+  std::map<std::string, int> frames_of;
+  for (const Trial& trial : database.trials) frames_of[FileOf(trial)] += trial.num_frames;
+  std::vector<std::string> names;
+  for (const auto& [name, frames] : frames_of) names.push_back(name);
+  std::shuffle(names.begin(), names.end(), std::mt19937_64(seed));
+  int sum = 0;
+  size_t count = 0;
+  while (count < names.size() && sum < num_frames) sum += frames_of[names[count++]];
+  names.resize(count);
+  return SubsetOfTrials(database, names);
 }
 
 std::vector<int> SegmentEnds(const MotionDatabase& database, int num_frames) {
@@ -145,7 +175,7 @@ MotionDatabase LoadMotionDatabase(const std::vector<MotionSource>& sources,
       const FeatureMatrix features = MotionFeatures(piece);
       database.Append(amc.stem(), features);
       if (options.mirrored)
-        database.Append(amc.stem().string() + "/mirrored", MirroredFeatures(features, standard));
+        database.Append(amc.stem().string() + kMirrored, MirroredFeatures(features, standard));
     }
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(sources.size()));
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,15 @@ struct MotionDatabase {
   // Puts a trial behind the others.
   void Append(const std::string& name, const FeatureMatrix& trial_features);
 };
+
+// The trials of these names, with their mirror images. Names that no trial has are
+// of no concern.
+MotionDatabase SubsetOfTrials(const MotionDatabase& database,
+                              const std::vector<std::string>& names);
+
+// Trials drawn by the seed until they and their mirror images have at least so many
+// frames, or all of them.
+MotionDatabase DrawTrials(const MotionDatabase& database, int num_frames, uint64_t seed);
 
 // A segment is named by its last frame t: it is the frames t-m+1 .. t of one
 // trial, and the frame t+1 that follows is of the same trial. All of them, in

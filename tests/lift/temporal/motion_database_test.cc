@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "lift/dictionary_file.h"
 #include "src/forward_kinematics.h"
@@ -150,6 +151,46 @@ TEST(MotionDatabase, HoldsTheTrialsOfFilesAndTheirMirrorImages) {
                            MirroredFeatures(planted[i], standard), 1e-3));
   }
   EXPECT_EQ(LoadMotionDatabase(FindMotions(folder), standard, {.mirrored = false}).NumFrames(), 23);
+}
+
+// Trials of one value each, so that a frame says whose it is.
+MotionDatabase NumberedTrials() {
+  MotionDatabase database;
+  int number = 0;
+  for (const char* name :
+       {"01_01", "01_01/mirrored", "01_02", "01_02/mirrored", "01_01", "02_05"}) {
+    database.Append(name, FeatureMatrix::Constant(kNumFeatures, 10 + number, number));
+    ++number;
+  }
+  return database;
+}
+
+TEST(MotionDatabase, SubsetsHaveAllPiecesOfATrialAndItsMirrorImage) {
+  const MotionDatabase subset = SubsetOfTrials(NumberedTrials(), {"02_05", "01_01", "77_77"});
+  std::vector<int> numbers;
+  for (const Trial& trial : subset.trials) {
+    const auto frames = subset.features.middleCols(trial.first_frame, trial.num_frames);
+    EXPECT_TRUE((frames.array() == frames(0, 0)).all());
+    EXPECT_EQ(trial.num_frames, 10 + frames(0, 0));
+    numbers.push_back(static_cast<int>(frames(0, 0)));
+  }
+  EXPECT_THAT(numbers, ElementsAre(0, 1, 4, 5));
+  EXPECT_EQ(SubsetOfTrials(NumberedTrials(), {}).NumFrames(), 0);
+}
+
+TEST(MotionDatabase, DrawsWholeTrialsBySeed) {
+  const MotionDatabase all = NumberedTrials();
+  std::set<int> sizes;
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const MotionDatabase drawn = DrawTrials(all, 20, seed);
+    EXPECT_GE(drawn.NumFrames(), 20);
+    EXPECT_LT(drawn.NumFrames(), 35 + 20);
+    EXPECT_EQ(drawn.NumFrames(), DrawTrials(all, 20, seed).NumFrames());
+    sizes.insert(drawn.NumFrames());
+  }
+  EXPECT_GT(sizes.size(), 1u);
+  EXPECT_EQ(DrawTrials(all, 1000000, 1).NumFrames(), all.NumFrames());
+  EXPECT_EQ(DrawTrials(all, 0, 1).NumFrames(), 0);
 }
 
 TEST(MotionDatabase, CutsTrialsWhereAnglesJump) {
