@@ -28,10 +28,6 @@ constexpr double kFunctionTolerance = 1e-4;
 using RowMajorMap =
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
-// The root of L_IK, of the features (46) and the latent point (Q):
-//   w_d (y_d - f_d(x)) / sigma(x)     a row for each of the model's features
-//   sqrt(D ln(2 beta sigma^2(x)))
-//   x
 class StyleCost final : public ceres::CostFunction {
  public:
   StyleCost(const Style& style, const FeatureVector& last, double weight)
@@ -84,7 +80,7 @@ class StyleCost final : public ceres::CostFunction {
 
  private:
   const Style& style_;
-  const FeatureVector& last_;
+  FeatureVector last_;
   double weight_;
   mutable VectorXd x_;
   mutable GplvmPrediction prediction_;
@@ -113,6 +109,11 @@ class PointsCost final : public ceres::CostFunction {
 };
 
 }  // namespace
+
+std::unique_ptr<ceres::CostFunction> MakeStyleCost(const Style& style, const FeatureVector& last,
+                                                   double weight) {
+  return std::make_unique<StyleCost>(style, last, weight);
+}
 
 std::string StyleOptions::Validate() const {
   if (num_frames <= gplvm.latent_dim)

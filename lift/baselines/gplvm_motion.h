@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,10 @@
 #include "lift/ik/articulation.h"
 #include "lift/temporal/motion_database.h"
 #include "lift/temporal/motion_method.h"
+
+namespace ceres {
+class CostFunction;
+}
 
 namespace poselift {
 
@@ -23,7 +28,7 @@ inline constexpr int kNumPoseFeatures = feature::kVelocity;
 struct StyleOptions {
   // The active set: the frames that are learned, drawn by the seed from all that
   // have a frame before them. Training costs its cube.
-  int num_frames = 400;
+  int num_frames = 200;
   uint64_t seed = 1;
   bool changes = true;
   ScaledGplvmOptions gplvm;
@@ -40,12 +45,21 @@ struct Style {
 // Throws InputError when the options are invalid or the database has too few frames.
 Style LearnStyle(const MotionDatabase& database, const StyleOptions& options = {});
 
+// L_IK below as residuals: blocks y (46) and x (Q); `last` is the features of the
+// frame before. Rows, each times the weight:
+//   w_d (y_d - f_d(x)) / sigma(x)     for each of the model's features
+//   sqrt(D ln(2 beta sigma^2(x)))
+//   x
+// The style must outlive it; for one thread at a time.
+std::unique_ptr<ceres::CostFunction> MakeStyleCost(const Style& style, const FeatureVector& last,
+                                                   double weight);
+
 struct GplvmMotionOptions {
   // Solves start at the last frame's latent point and at those of so many learned
   // poses, the nearest to the last pose and the observed points.
-  int num_starts = 3;
+  int num_starts = 1;
   double observed_scale_per_m = 20.0;  // a metre there, beside weighted features
-  double prior_sigma_factor = 1.0;     // L_IK is divided by its square
+  double prior_sigma_factor = 10.0;    // L_IK is divided by its square
 
   std::string Validate() const;  // empty, or which option is wrong and why
 };

@@ -16,14 +16,14 @@
 namespace poselift {
 
 struct LocalPcaOptions {
-  int num_neighbours = 50;  // K, taken of the segments that the search finds
+  int num_neighbours = 100;  // K, taken of the segments that the search finds
   // What a metre between the observed points and an example's counts in its
   // distance, beside the weighted features of the last poses.
   double observed_scale_per_m = 20.0;
-  double variance_kept = 0.99;      // by the subspace, of that of the K examples
+  double variance_kept = 0.999;     // by the subspace, of that of the K examples
   double prior_sigma_factor = 1.0;  // the examples' standard deviations times this
   // Of the change of the change from frame to frame: radians and metres.
-  double smoothness_sigma = 0.01;
+  double smoothness_sigma = 0.2;
 
   std::string Validate() const;  // empty, or which option is wrong and why
 };

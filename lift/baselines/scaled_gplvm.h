@@ -23,8 +23,8 @@ namespace poselift {
 // a feature that does not vary would grow for ever.
 struct ScaledGplvmOptions {
   int latent_dim = 3;
-  int max_iterations = 200;
-  double least_stddev = 1e-3;  // in the unit of the features
+  int max_iterations = 100;
+  double least_stddev = 1e-2;  // in the unit of the features
 
   std::string Validate() const;  // empty, or which option is wrong and why
 };

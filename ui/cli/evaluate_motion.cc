@@ -6,6 +6,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -28,7 +29,9 @@ namespace {
 struct Options {
   MotionExperimentOptions experiment;
   int max_frames = EvaluateMotionOptions().max_frames;
-  std::vector<std::string> methods;  // empty: all
+  // By name; empty: all.
+  std::vector<std::string> methods;
+  std::vector<std::string> points;
   std::string json;
   std::string plots;
 };
@@ -44,6 +47,15 @@ void RequireMethods(const std::vector<NamedMotionMethod>& methods, const Options
         std::none_of(methods.begin(), methods.end(),
                      [&](const auto& method) { return method.name == name; }))
       throw InputError("--methods: found '" + name + "', wanted names of the table");
+}
+
+std::vector<ControlPoints> WantedPoints(const Options& options) {
+  std::vector<ControlPoints> wanted;
+  for (const ControlPoints& points : PaperControlPoints())
+    if (options.points.empty() || std::find(options.points.begin(), options.points.end(),
+                                            points.name) != options.points.end())
+      wanted.push_back(points);
+  return wanted;
 }
 
 // Every method that is wanted; the GPLVM of an action on the trials of that action.
@@ -106,22 +118,24 @@ void WriteJson(const MotionReport& all, const MotionReport& small, const Options
 
 void WritePlots(const MotionReport& report, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  for (const char* points : {"6", "4"})
+  for (const std::string points : {"6", "4"}) {
+    if (!report.HasPoints(points)) continue;
     for (const bool degrees : {false, true})
       WriteFileAtomically(
           folder / fmt::format("motion_{}_points_{}.svg", points, degrees ? "deg" : "mm"),
           report.Chart(MethodsOfThePaper(), points, degrees));
+  }
 }
 
 int EvaluateMotions(const Options& options) {
   const MotionExperiment experiment = LoadMotionExperiment(options.experiment);
-  const auto& control_points = PaperControlPoints();
-  const MotionReport all = Evaluate(experiment.database, experiment, control_points, options);
+  const MotionReport all =
+      Evaluate(experiment.database, experiment, WantedPoints(options), options);
   fmt::print("{} database frames at {} Hz, mirror images too; {} test trials\n",
              experiment.database.NumFrames(), options.experiment.fps, experiment.trials.size());
   all.Print();
   const MotionReport small =
-      Evaluate(experiment.small, experiment, {control_points.back()}, options);
+      Evaluate(experiment.small, experiment, {PaperControlPoints().back()}, options);
   fmt::print("\n{} database frames, trials drawn with seed {}\n", experiment.small.NumFrames(),
              options.experiment.seed);
   small.Print();
@@ -144,8 +158,10 @@ CLI::App* AddEvaluateMotion(CLI::App* app, Run* run) {
   command->add_option("--asf", experiment.asf, "Skeleton of AMC files that have none of their own");
   command->add_option("--json", options->json, "Write the numbers there too");
   command->add_option("--plots", options->plots, "Write bar charts (SVG) into this folder");
-  command->add_option("--methods", options->methods, "Only these, by their names in the table")
-      ->delimiter(',');
+  command->add_option("--methods", options->methods, "Only these, by their names in the table");
+  command->add_option("--points", options->points, "Only these numbers of control points, 2 to 6")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"2", "3", "4", "5", "6"}));
   command->add_option("--fps", experiment.fps, "Frames a second")->capture_default_str();
   command->add_option("--frames", options->max_frames, "At most so many of a trial")
       ->capture_default_str();

@@ -47,6 +47,10 @@ MotionReport::MotionReport(std::vector<MotionEvaluation> rows) : rows_(std::move
   }
 }
 
+bool MotionReport::HasPoints(const std::string& points) const {
+  return std::find(points_.begin(), points_.end(), points) != points_.end();
+}
+
 MotionCell MotionReport::MeanOf(const std::string& method, const std::string& points,
                                 const std::string& action) const {
   std::vector<MotionCell> cells;

@@ -21,6 +21,7 @@ class MotionReport {
   explicit MotionReport(std::vector<MotionEvaluation> rows);
 
   const std::vector<MotionEvaluation>& rows() const { return rows_; }
+  bool HasPoints(const std::string& points) const;
   MotionCell MeanOf(const std::string& method, const std::string& points,
                     const std::string& action) const;
   MotionCell MeanOf(const std::string& method, const std::string& points) const;

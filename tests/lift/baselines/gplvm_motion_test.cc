@@ -5,6 +5,7 @@
 // of them, and another gait of that kind seen at its wrists and ankles.
 #include "lift/baselines/gplvm_motion.h"
 
+#include <ceres/cost_function.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -83,6 +84,71 @@ TEST(Style, DependsOnTheSeedAlone) {
   EXPECT_EQ(world.style.gplvm.latent, again.gplvm.latent);
   options.seed = 2;
   EXPECT_NE(LearnStyle(world.database, options).poses, again.poses);
+}
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// Coarse: the finer the style, the less do differences say of its derivatives.
+StyleOptions CoarseStyle() {
+  StyleOptions options = SmallStyle();
+  options.gplvm.least_stddev = 0.1;
+  options.gplvm.max_iterations = 5;
+  return options;
+}
+
+struct AtSomePoint {
+  AtSomePoint()
+      : world(CoarseStyle()), last(world.style.poses.col(3)), y(world.style.poses.col(4)) {
+    y.head<kNumAngles>().array() += 0.01;
+    x = 0.9 * world.style.gplvm.latent.col(4).array() + 0.1;
+    cost = MakeStyleCost(world.style, last, 0.7);
+  }
+
+  Eigen::VectorXd Residuals(double** jacobians = nullptr) const {
+    const double* blocks[] = {y.data(), x.data()};
+    Eigen::VectorXd residuals(cost->num_residuals());
+    EXPECT_TRUE(cost->Evaluate(blocks, residuals.data(), jacobians));
+    return residuals;
+  }
+
+  World world;
+  FeatureVector last, y;
+  Eigen::VectorXd x;
+  std::unique_ptr<ceres::CostFunction> cost;
+};
+
+TEST(StyleCost, IsTheNegativeLogarithmOfTheStyle) {
+  const AtSomePoint at;
+  const ScaledGplvm& gplvm = at.world.style.gplvm;
+  GplvmPrediction f;
+  Predict(gplvm, at.x, &f);
+  Eigen::VectorXd all(kNumFeatures + kNumPoseFeatures);
+  all << at.y, (at.y - at.last).head<kNumPoseFeatures>();
+  const auto dim = static_cast<double>(all.size());
+  const double l_ik = 0.5 * gplvm.scales.cwiseProduct(all - f.mean).squaredNorm() / f.variance +
+                      0.5 * dim * std::log(2.0 * gplvm.beta * f.variance) +
+                      0.5 * at.x.squaredNorm();
+  EXPECT_NEAR(0.5 * at.Residuals().squaredNorm(), 0.7 * 0.7 * l_ik, 1e-9 * l_ik);
+}
+
+TEST(StyleCost, JacobiansEqualDifferences) {
+  AtSomePoint at;
+  const auto rows = at.cost->num_residuals();
+  RowMajor by_y(rows, kNumFeatures), by_x(rows, at.x.size());
+  double* jacobians[] = {by_y.data(), by_x.data()};
+  at.Residuals(jacobians);
+  const auto expect_column = [&](double& parameter, const Eigen::VectorXd& column) {
+    constexpr double kStep = 1e-4;
+    const double start = parameter;
+    parameter = start + kStep;
+    const Eigen::VectorXd ahead = at.Residuals();
+    parameter = start - kStep;
+    const Eigen::VectorXd behind = at.Residuals();
+    parameter = start;
+    EXPECT_TRUE(MatrixNear((ahead - behind) / (2 * kStep), column, 1e-5 * (1.0 + column.norm())));
+  };
+  for (int i = 0; i < kNumFeatures; ++i) expect_column(at.y[i], by_y.col(i));
+  for (int i = 0; i < at.x.size(); ++i) expect_column(at.x[i], by_x.col(i));
 }
 
 TEST(GplvmMotion, BeatsInverseKinematicsOnMotionsOfItsKind) {
