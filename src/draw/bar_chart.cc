@@ -18,7 +18,7 @@ constexpr double kGroupGap = 0.25;  // of a group's width
 
 // Okabe and Ito: distinct in every common colour blindness.
 constexpr std::array<const char*, 8> kColors = {"#999999", "#e69f00", "#56b4e9", "#009e73",
-                                                "#f0e442", "#cc79a7", "#d55e00", "#0072b2"};
+                                                "#d55e00", "#0072b2", "#cc79a7", "#f0e442"};
 
 std::string Escaped(const std::string& text) {
   std::string escaped;
