@@ -10,6 +10,7 @@
 #include "lift/baselines/frame_ik.h"
 #include "lift/baselines/local_pca.h"
 #include "lift/temporal/motion_reconstruction.h"
+#include "lift/temporal/path_reconstruction.h"
 #include "ui/cli/motion_experiment.h"
 
 namespace poselift::cli {
@@ -52,6 +53,7 @@ MotionMethods::MotionMethods(const MotionDatabase& database, uint64_t seed)
       style_options_{.seed = seed},
       row_weights_(RowWeights(database)),
       search_(database, row_weights_, kCandidates),
+      paths_(database),
       style_(LearnStyle(database, style_options_)) {}
 
 std::vector<NamedMotionMethod> MotionMethods::All() const {
@@ -72,7 +74,8 @@ std::vector<NamedMotionMethod> MotionMethods::All() const {
       regression("local regression, as printed", AsInPapers(LocalRegressionMethod::kAsPrinted)),
       regression("local regression, PLS", AsInPapers(LocalRegressionMethod::kPartialLeastSquares)),
       regression("local regression, ridge", AsInPapers(LocalRegressionMethod::kRidge)),
-      regression("poselift", {})};
+      regression("poselift, by last poses", {}),
+      {"poselift", [this] { return std::make_unique<PathReconstruction>(database_, paths_); }}};
 }
 
 NamedMotionMethod MotionMethods::GplvmOf(const std::string& action) {

@@ -10,6 +10,7 @@
 #include "lift/baselines/gplvm_motion.h"
 #include "lift/eval/evaluate_motion.h"
 #include "lift/temporal/motion_database.h"
+#include "lift/temporal/path_search.h"
 #include "lift/temporal/segment_search.h"
 
 namespace poselift::cli {
@@ -35,6 +36,7 @@ class MotionMethods {
   StyleOptions style_options_;
   FeatureVector row_weights_;
   SegmentSearch search_;
+  PathSearch paths_;
   Style style_;
   std::map<std::string, Style> style_of_;  // actions
 };
