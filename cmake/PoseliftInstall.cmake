@@ -1,5 +1,5 @@
 # cmake --install: the program, the libraries with their headers, the package
-# files, the default dictionary. tests/consumer proves the result.
+# files, the default models. tests/consumer proves the result.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -14,7 +14,7 @@ install(TARGETS poselift)
 install(DIRECTORY src lift DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/poselift
   FILES_MATCHING PATTERN "*.h" PATTERN "eval" EXCLUDE)
 install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/poselift OPTIONAL
-  FILES_MATCHING PATTERN "*.pldict")
+  FILES_MATCHING PATTERN "*.pldict" PATTERN "*.plmotion")
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/poselift)

@@ -14,8 +14,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kVariable = "POSELIFT_DICTIONARY";
-constexpr const char* kFileName = "default.pldict";
+struct ModelNames {
+  const char* what;
+  const char* variable;
+  const char* file;
+  const char* way_out;  // how else to have one
+};
+
+const ModelNames& NamesOf(DefaultModel model) {
+  static constexpr ModelNames kDictionary = {
+      "default dictionary", "POSELIFT_DICTIONARY", "default.pldict",
+      "name one with POSELIFT_DICTIONARY or --dictionary, or train one with `poselift train`"};
+  static constexpr ModelNames kMotion = {
+      "default motion model", "POSELIFT_MOTION_MODEL", "default.plmotion",
+      "name one with POSELIFT_MOTION_MODEL, or train one with `poselift train --motion`"};
+  return model == DefaultModel::kDictionary ? kDictionary : kMotion;
+}
 
 bool IsFile(const fs::path& path) {
   std::error_code ignored;
@@ -32,38 +46,44 @@ fs::path RunningProgram() {
   return fs::read_symlink("/proc/self/exe", ignored);
 }
 
+fs::path DefaultModelPath(DefaultModel model) {
+  const char* const variable = NamesOf(model).variable;
+  const char* const named = std::getenv(variable);
+  if (named == nullptr || *named == '\0')
+    return FirstModelOf(model, DefaultModelPlaces(model, RunningProgram()));
+  if (!IsFile(named))
+    throw InputError(named, std::string("no such file, and the environment variable ") + variable +
+                                " names it; correct or unset it");
+  return named;
+}
+
 }  // namespace
 
-std::vector<fs::path> DefaultDictionaryPlaces(const fs::path& program) {
+fs::path DefaultDictionaryPath() { return DefaultModelPath(DefaultModel::kDictionary); }
+
+fs::path DefaultMotionModelPath() { return DefaultModelPath(DefaultModel::kMotion); }
+
+std::vector<fs::path> DefaultModelPlaces(DefaultModel model, const fs::path& program) {
+  const char* const file = NamesOf(model).file;
   std::vector<fs::path> places;
   if (!program.empty()) {
     const fs::path data_dir = program.parent_path() / POSELIFT_DATA_FROM_PROGRAM;
-    places.push_back(data_dir.lexically_normal() / "poselift" / kFileName);
+    places.push_back(data_dir.lexically_normal() / "poselift" / file);
   }
   std::error_code ignored;
   if (IsInside(program, fs::weakly_canonical(POSELIFT_BUILD_DIR, ignored)))
-    places.push_back(fs::path(POSELIFT_SOURCE_DATA_DIR) / kFileName);
-  places.push_back(fs::path(POSELIFT_INSTALLED_DATA_DIR) / "poselift" / kFileName);
+    places.push_back(fs::path(POSELIFT_SOURCE_DATA_DIR) / file);
+  places.push_back(fs::path(POSELIFT_INSTALLED_DATA_DIR) / "poselift" / file);
   return places;
 }
 
-fs::path FirstDictionaryOf(const std::vector<fs::path>& places) {
+fs::path FirstModelOf(DefaultModel model, const std::vector<fs::path>& places) {
   const auto found = std::find_if(places.begin(), places.end(), IsFile);
   if (found != places.end()) return *found;
-  std::string message = "found no default dictionary; looked for";
+  const ModelNames& names = NamesOf(model);
+  std::string message = std::string("found no ") + names.what + "; looked for";
   for (const fs::path& place : places) message += "\n  " + place.string();
-  throw InputError(message + "\ninstall one there, name one with " + kVariable +
-                   " or --dictionary, or train one with `poselift train`");
-}
-
-fs::path DefaultDictionaryPath() {
-  const char* const named = std::getenv(kVariable);
-  if (named == nullptr || *named == '\0')
-    return FirstDictionaryOf(DefaultDictionaryPlaces(RunningProgram()));
-  if (!IsFile(named))
-    throw InputError(named, std::string("no such file, and the environment variable ") + kVariable +
-                                " names it; correct or unset it");
-  return named;
+  throw InputError(message + "\ninstall one there, " + names.way_out);
 }
 
 }  // namespace poselift

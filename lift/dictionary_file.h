@@ -8,15 +8,9 @@
 
 namespace poselift {
 
-// A dictionary as one file (.pldict), little-endian; docs/FORMATS.md has it all:
-//
-//   "PLDICT\r\n"  u32 version  u64 header bytes  u64 file bytes
-//   JSON header: joint names, skeleton, training record, table of the arrays
-//   arrays, each at a multiple of 64 bytes: atoms, prior mean, prior whitening
-//   u32 CRC-32 of all bytes before it
-//
-// What is read is, to the last bit, what was written (strings: when they are
-// UTF-8). The same dictionary gives the same bytes.
+// A dictionary as one file (.pldict), an array file (array_file.h) of atoms, prior
+// mean and prior whitening; docs/FORMATS.md has it all. What is read is, to the
+// last bit, what was written. The same dictionary gives the same bytes.
 
 // Written as WriteFileAtomically does. Throws InputError when the file cannot be
 // written, std::invalid_argument for a dictionary with a DictionaryFlaw.

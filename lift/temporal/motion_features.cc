@@ -41,20 +41,24 @@ Quaterniond Swing(const Vector2d& tilt_rad) {
 }
 
 void RequireFeatureSkeleton(const Skeleton& skeleton) {
-  if (skeleton.bones.size() != kNumJoints || skeleton.NumDofs() != kNumAngles)
-    throw InputError(
-        skeleton.name,
-        fmt::format("found {} bones with {} degrees of freedom beside the root's, "
-                    "wanted the {} with {} of TrimToJoints",
-                    skeleton.bones.size(), skeleton.NumDofs(), kNumJoints, kNumAngles));
-  for (const Bone& bone : skeleton.bones)
-    for (const Dof& dof : bone.dofs)
-      if (!dof.IsRotation())
-        throw InputError(skeleton.name,
-                         "found a shift at the bone " + bone.name + ", wanted rotations alone");
+  if (const std::string flaw = FeatureSkeletonFlaw(skeleton); !flaw.empty())
+    throw InputError(skeleton.name, flaw);
 }
 
 }  // namespace
+
+std::string FeatureSkeletonFlaw(const Skeleton& skeleton) {
+  if (skeleton.bones.size() != kNumJoints || skeleton.NumDofs() != kNumAngles)
+    return fmt::format(
+        "found {} bones with {} degrees of freedom beside the root's, "
+        "wanted the {} with {} of TrimToJoints",
+        skeleton.bones.size(), skeleton.NumDofs(), kNumJoints, kNumAngles);
+  for (const Bone& bone : skeleton.bones)
+    for (const Dof& dof : bone.dofs)
+      if (!dof.IsRotation())
+        return "found a shift at the bone " + bone.name + ", wanted rotations alone";
+  return "";
+}
 
 double Yaw(const Quaterniond& world_from_root) {
   return WithoutTurns(2.0 * std::atan2(world_from_root.y(), world_from_root.w()));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 #include "src/motion.h"
 
@@ -40,8 +41,12 @@ inline constexpr int kHeight = 40, kTilt = 41, kVelocity = 43, kYawRate = 45;
 // The angle of R_yaw, radians in [-pi, pi].
 double Yaw(const Eigen::Quaterniond& world_from_root);
 
-// Throws InputError for a skeleton that has not 40 dofs, all of them rotations,
-// and for a frame time that is not positive.
+// What hinders a skeleton to have these features, or "": not 23 bones with 40
+// dofs, all of them rotations.
+std::string FeatureSkeletonFlaw(const Skeleton& skeleton);
+
+// Throws InputError for a skeleton with a FeatureSkeletonFlaw and for a frame time that is not
+// positive.
 FeatureMatrix MotionFeatures(const Motion& motion);
 
 // The way back, one frame: `before` is the pose of the frame before, of which

@@ -28,17 +28,25 @@ Eigen::MatrixXd SeedCentres(const Eigen::MatrixXd& points, int num_clusters, std
   return centres;
 }
 
+// Points are compared with the centres by blocks, as products of matrices.
 bool Assign(const Eigen::MatrixXd& points, const Eigen::MatrixXd& centres,
             Eigen::VectorXi* clusters, Eigen::VectorXd* distances) {
+  constexpr Eigen::Index kBlock = 128;
   const Eigen::VectorXd half_norms = 0.5 * centres.colwise().squaredNorm().transpose();
   bool changed = false;
 #pragma omp parallel for reduction(|| : changed) schedule(static)
-  for (Eigen::Index j = 0; j < points.cols(); ++j) {
-    Eigen::Index best = 0;
-    const double score = (centres.transpose() * points.col(j) - half_norms).maxCoeff(&best);
-    (*distances)[j] = points.col(j).squaredNorm() - 2.0 * score;
-    changed = changed || (*clusters)[j] != best;
-    (*clusters)[j] = static_cast<int>(best);
+  for (Eigen::Index first = 0; first < points.cols(); first += kBlock) {
+    const auto block = points.middleCols(first, std::min(kBlock, points.cols() - first));
+    Eigen::MatrixXd scores = centres.transpose() * block;
+    scores.colwise() -= half_norms;
+    for (Eigen::Index i = 0; i < block.cols(); ++i) {
+      const Eigen::Index j = first + i;
+      Eigen::Index best = 0;
+      const double score = scores.col(i).maxCoeff(&best);
+      (*distances)[j] = block.col(i).squaredNorm() - 2.0 * score;
+      changed = changed || (*clusters)[j] != best;
+      (*clusters)[j] = static_cast<int>(best);
+    }
   }
   return changed;
 }
@@ -74,13 +82,15 @@ void MoveCentres(const Eigen::MatrixXd& points, const Eigen::VectorXd& distances
 }  // namespace
 
 Eigen::VectorXi KMeans(const Eigen::MatrixXd& points, int num_clusters, int max_iterations,
-                       std::uint64_t seed) {
+                       std::uint64_t seed, const ProgressFn& progress) {
   num_clusters = static_cast<int>(std::min<Eigen::Index>(num_clusters, points.cols()));
   Eigen::VectorXi clusters = Eigen::VectorXi::Constant(points.cols(), -1);
   Eigen::VectorXd distances(points.cols());
   Eigen::MatrixXd centres = SeedCentres(points, num_clusters, seed);
-  for (int i = 0; i < max_iterations && Assign(points, centres, &clusters, &distances); ++i)
+  for (int i = 0; i < max_iterations && Assign(points, centres, &clusters, &distances); ++i) {
     MoveCentres(points, distances, &clusters, &centres);
+    if (progress) progress(static_cast<double>(i + 1) / max_iterations);
+  }
   return clusters;
 }
 

@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "src/progress.h"
+
 namespace poselift {
 
 // k-means (Lloyd, seeded by k-means++) on the columns of points (D x m).
@@ -12,6 +14,6 @@ namespace poselift {
 // empty. m and max_iterations are at least 1. Deterministic by seed whatever the
 // number of threads.
 Eigen::VectorXi KMeans(const Eigen::MatrixXd& points, int num_clusters, int max_iterations,
-                       std::uint64_t seed);
+                       std::uint64_t seed, const ProgressFn& progress = {});
 
 }  // namespace poselift

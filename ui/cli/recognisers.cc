@@ -15,6 +15,7 @@ std::span<const Recogniser> Recognisers() {
       Recogniser{"ASF skeleton", IsAsf, DescribeAsf},
       Recogniser{"AMC motion", IsAmc, DescribeAmc},
       Recogniser{"pose dictionary", IsDictionary, DescribeDictionary},
+      Recogniser{"motion codebook", IsMotionCodebook, DescribeMotionCodebook},
       Recogniser{"picture", IsImage, DescribeImage},
       Recogniser{"camera", IsCamera, DescribeCamera},
       Recogniser{"lifted poses", IsPoses, DescribePoses},

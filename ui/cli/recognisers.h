@@ -32,8 +32,12 @@ nlohmann::ordered_json DescribeBvh(const std::filesystem::path& path);
 nlohmann::ordered_json DescribeAmc(const std::filesystem::path& path);
 nlohmann::ordered_json DescribeAsf(const std::filesystem::path& path);
 
+// Learned models: recognise_model.cc.
 bool IsDictionary(const std::filesystem::path& path, std::string_view head);
 nlohmann::ordered_json DescribeDictionary(const std::filesystem::path& path);
+
+bool IsMotionCodebook(const std::filesystem::path& path, std::string_view head);
+nlohmann::ordered_json DescribeMotionCodebook(const std::filesystem::path& path);
 
 bool IsCamera(const std::filesystem::path& path, std::string_view head);
 nlohmann::ordered_json DescribeCamera(const std::filesystem::path& path);

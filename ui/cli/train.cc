@@ -21,6 +21,7 @@
 #include "src/io/atomic_file.h"
 #include "ui/cli/command.h"
 #include "ui/cli/progress.h"
+#include "ui/cli/train_motion.h"
 
 namespace poselift::cli {
 namespace {
@@ -34,6 +35,9 @@ struct Options {
   TrainOptions train;
   LoadOptions load;
   bool no_mirror = false;
+  bool motion = false;
+  CodebookOptions codebook;
+  std::vector<std::string> held_out;
 };
 
 nlohmann::ordered_json ToJson(const TrainReport& report, const Dictionary& dictionary) {
@@ -68,19 +72,16 @@ void Print(const TrainReport& report, const Dictionary& dictionary) {
 
 // What makes the same dictionary again, without the paths of this machine.
 std::string Command(const Options& options) {
-  const auto name = [](const std::filesystem::path& path) {
-    return path.has_filename() ? path.filename() : path.parent_path().filename();
-  };
   std::string command = fmt::format(
       "poselift train --mocap {} --atoms {} --target-mm {:g} --sparsity {} --iterations {} "
       "--subsets {} --stride {} --seed {}",
-      name(options.mocap).string(), options.atoms, 1e3 * options.train.target_error_m,
+      NameOf(options.mocap), options.atoms, 1e3 * options.train.target_error_m,
       options.train.ksvd.sparsity, options.train.ksvd.max_iterations, options.train.num_subsets,
       options.load.stride, options.train.seed);
   if (!options.choice.subjects.empty())
     command += fmt::format(" --subjects {}", fmt::join(options.choice.subjects, ","));
   if (!options.choice.fallback_asf.empty())
-    command += " --asf " + name(options.choice.fallback_asf).string();
+    command += " --asf " + NameOf(options.choice.fallback_asf);
   if (options.no_mirror) command += " --no-mirror";
   return command;
 }
@@ -103,39 +104,76 @@ int Train(const Options& options) {
   return kDone;
 }
 
+MotionTrainOptions MotionOptions(const Options& options) {
+  MotionTrainOptions motion = {.mocap = options.mocap,
+                               .out = options.out,
+                               .json = options.json,
+                               .choice = options.choice,
+                               .held_out = options.held_out,
+                               .codebook = options.codebook};
+  motion.codebook.iterations = options.train.ksvd.max_iterations;
+  motion.codebook.seed = options.train.seed;
+  return motion;
+}
+
 }  // namespace
 
 CLI::App* AddTrain(CLI::App* app, Run* run) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand("train", "Learn a pose dictionary from AMC/ASF files");
-  command->footer("Example:\n  poselift train --mocap cmu/ --out mine.pldict --seed 1");
+  CLI::App* command = app->add_subcommand(
+      "train", "Learn a pose dictionary or, with --motion, a motion codebook from AMC/ASF files");
+  command->footer(
+      "Example:\n  poselift train --mocap cmu/ --out mine.pldict --seed 1\n"
+      "  poselift train --motion --mocap cmu/ --out mine.plmotion");
   command->add_option("--mocap", options->mocap, "Folder with .amc and .asf files")->required();
-  command->add_option("--out", options->out, "Dictionary file to write")->required();
+  command->add_option("--out", options->out, "Dictionary or codebook file to write")->required();
+  CLI::Option* motion =
+      command->add_flag("--motion", options->motion, "Learn half seconds of motion, not poses");
+  command->add_option("--segments", options->codebook.num_segments, "Segments of the codebook")
+      ->needs(motion)
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--held-out", options->held_out,
+                   "Subjects or trials to test the codebook with, not to learn from")
+      ->needs(motion)
+      ->delimiter(',');
   command->add_option("--atoms", options->atoms, "Number of atoms, or auto: by --target-mm")
+      ->excludes(motion)
       ->capture_default_str();
   command
       ->add_option_function<double>(
           "--target-mm", [options](double mm) { options->train.target_error_m = 1e-3 * mm; },
           "Coding error aimed at, RMS of a joint (auto)")
+      ->excludes(motion)
       ->default_str(fmt::format("{:g}", 1e3 * options->train.target_error_m));
   command->add_option("--sparsity", options->train.ksvd.sparsity, "Atoms of a pose in training")
+      ->excludes(motion)
       ->capture_default_str();
-  command->add_option("--iterations", options->train.ksvd.max_iterations, "K-SVD iterations")
+  command
+      ->add_option("--iterations", options->train.ksvd.max_iterations,
+                   "K-SVD or, with --motion, k-means iterations")
       ->capture_default_str();
   command->add_option("--subsets", options->train.num_subsets, "k-means subsets")
+      ->excludes(motion)
       ->capture_default_str();
   command->add_option("--stride", options->load.stride, "Take every n-th frame")
+      ->excludes(motion)
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--subjects", options->choice.subjects, "Only these (folder names)")
       ->delimiter(',');
   command->add_option("--asf", options->choice.fallback_asf,
                       "Skeleton of AMC files that have none of their own");
-  command->add_flag("--no-mirror", options->no_mirror, "Do not add left-right mirrored poses");
+  command->add_flag("--no-mirror", options->no_mirror, "Do not add left-right mirrored poses")
+      ->excludes(motion);
   command->add_option("--seed", options->train.seed, "Of the random draws")->capture_default_str();
   command->add_option("--threads", options->train.num_threads, "0: all cores")
+      ->excludes(motion)
       ->capture_default_str();
-  command->add_option("--json", options->json, "Training report: error per iteration, atom use");
+  command->add_option(
+      "--json", options->json,
+      "Training report: error per iteration, atom use; members, held-out distances");
   command->callback([options, command] {
     if (options->atoms != "auto") {
       const auto [end, error] =
@@ -147,7 +185,9 @@ CLI::App* AddTrain(CLI::App* app, Run* run) {
     if (const std::string error = options->train.Validate(); !error.empty())
       throw CLI::ValidationError(command->get_name(), error);
   });
-  *run = [options] { return Train(*options); };
+  *run = [options] {
+    return options->motion ? TrainMotion(MotionOptions(*options)) : Train(*options);
+  };
   return command;
 }
 

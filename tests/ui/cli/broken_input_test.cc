@@ -13,6 +13,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "lift/dictionary_file.h"
+#include "lift/temporal/motion_codebook_file.h"
 #include "src/io/amc.h"
 #include "src/io/asf.h"
 #include "src/io/image.h"
@@ -165,6 +166,26 @@ TEST(BrokenInput, DictionariesAreRefusedByInfo) {
                   {"longer", whole + "x", ": is altered"}});
 }
 
+TEST(BrokenInput, MotionCodebooksAreRefusedByInfo) {
+  MotionCodebook codebook;
+  codebook.skeleton = testing::SmallSkeleton();
+  codebook.segments.setOnes(kSegmentRows, 3);
+  codebook.rates.setOnes(kNumFeatures, 3);
+  codebook.deviations.setOnes(kNumFeatures, 3);
+  const fs::path path = ScratchDir() / "m.plmotion";
+  WriteMotionCodebook(codebook, path);
+  const std::string whole = FileText(path);
+  std::string altered = whole, newer = whole;
+  altered[whole.size() / 2] ^= 1;
+  newer[8] = 2;  // the version
+  ExpectRefusals(
+      "m.plmotion", whole, {"info {}"},
+      {{"truncated", whole.substr(0, whole.size() / 2), ": is cut short"},
+       {"altered", altered, ": is altered"},
+       {"newer version", newer, ": has format version 2"},
+       {"a dictionary's", Replaced(whole, "PLMOTN", "PLDICT"), ": is no motion codebook"}});
+}
+
 TEST(BrokenInput, PicturesAreRefusedByInfo) {
   WritePng(ScratchDir() / "p.png", cv::Mat(40, 60, CV_8UC3, cv::Scalar(1, 2, 3)));
   const std::string png = FileText(ScratchDir() / "p.png");
@@ -223,6 +244,9 @@ TEST(BrokenInput, WrongUsageIsToldFromBrokenFiles) {
        {"", "dance", "info", "info --colour a.bvh", "convert a.bvh",
         "convert a.bvh out.bvh --units miles", "convert a.bvh out.bvh --fps nan", "train",
         "train --mocap . --out out.pldict --atoms many",
+        "train --mocap . --out out.pldict --segments 5",
+        "train --mocap . --out out.plmotion --motion --segments 0",
+        "train --mocap . --out out.plmotion --motion --atoms 5",
         "train --mocap . --out out.pldict --stride 0"}) {
     const auto run = RunProgram(arguments);
     EXPECT_EQ(run.code, 2) << arguments << "\n" << run.err;

@@ -12,6 +12,7 @@
 #include <opencv2/core.hpp>
 
 #include "lift/dictionary_file.h"
+#include "lift/temporal/motion_codebook_file.h"
 #include "src/io/amc.h"
 #include "src/io/asf.h"
 #include "src/io/bvh.h"
@@ -177,6 +178,23 @@ TEST(Info, ReadsTheTrainingRecordOfADictionary) {
   EXPECT_EQ(facts["command"], "poselift train --seed 77");
   EXPECT_EQ(facts["pose_prior"], false);
   EXPECT_NEAR(facts["height_m"], 1.65, 0.15);  // the skeleton is about 1.75 m tall
+}
+
+TEST(Info, ReadsTheTrainingRecordOfAMotionCodebook) {
+  MotionCodebook codebook;
+  codebook.skeleton = testing::SmallSkeleton();
+  codebook.segments.setOnes(kSegmentRows, 3);
+  codebook.rates.setOnes(kNumFeatures, 3);
+  codebook.deviations.setOnes(kNumFeatures, 3);
+  codebook.record.num_segments = 21;
+  codebook.record.command = "poselift train --motion";
+  WriteMotionCodebook(codebook, ScratchDir() / "by_content");
+  const json facts = FactsOf("by_content");
+  EXPECT_EQ(facts["kind"], "motion codebook");
+  EXPECT_EQ(facts["segments"], 3);
+  EXPECT_EQ(facts["training_segments"], 21);
+  EXPECT_NEAR(facts["duration_s"], 8.0 / 15.0, 1e-12);
+  EXPECT_EQ(facts["command"], "poselift train --motion");
 }
 
 TEST(Info, SaysSizeAndFormatOfAPicture) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lift/dictionary_file.h"
+#include "lift/temporal/motion_codebook_file.h"
 #include "src/forward_kinematics.h"
 #include "ui/cli/recognisers.h"
 
@@ -34,6 +35,26 @@ nlohmann::ordered_json DescribeDictionary(const std::filesystem::path& path) {
           {"sparsity", record.sparsity},
           {"rms_error_mm", record.rms_error_mm},
           {"subsets", record.num_subsets},
+          {"seed", record.seed},
+          {"commit", record.commit},
+          {"command", record.command}};
+}
+
+bool IsMotionCodebook(const std::filesystem::path& path, std::string_view head) {
+  return HasEnding(path, ".plmotion") || head.starts_with("PLMOTN");
+}
+
+nlohmann::ordered_json DescribeMotionCodebook(const std::filesystem::path& path) {
+  const MotionCodebook codebook = ReadMotionCodebook(path);
+  const CodebookRecord& record = codebook.record;
+  return {{"segments", codebook.NumSegments()},
+          {"duration_s", (kSegmentSamples - 1) * codebook.sample_time_s},
+          {"samples", kSegmentSamples},
+          {"bones", codebook.skeleton.bones.size()},
+          {"height_m", Height(codebook.skeleton)},
+          {"training_files", record.sources.size()},
+          {"training_segments", record.num_segments},
+          {"rms_error_mm", record.rms_error_mm},
           {"seed", record.seed},
           {"commit", record.commit},
           {"command", record.command}};
