@@ -4,22 +4,14 @@
 
 #include <algorithm>
 #include <atomic>
-#include <ctime>
 
-#include "src/dof_angles.h"
+#include "lift/eval/pose_error.h"
+#include "lift/eval/thread_time.h"
 #include "src/forward_kinematics.h"
 #include "src/layout.h"
-#include "src/units.h"
 
 namespace poselift {
 namespace {
-
-// Of this thread's own work: other work on the machine does not count.
-double ThreadTime_ms() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
 
 std::vector<TargetPoint> Observe(const ControlPoints& control, const Pose3& joints_in_world_m,
                                  double sigma_m) {
@@ -30,22 +22,6 @@ std::vector<TargetPoint> Observe(const ControlPoints& control, const Pose3& join
     observed.push_back({parts, SumOfJoints(parts, joints_in_world_m), 1.0 / sigma_m});
   }
   return observed;
-}
-
-// Mean over the root and the bones that turn.
-double MeanAngle_deg(const Skeleton& skeleton, const SkeletonPose& a, const SkeletonPose& b) {
-  double sum_rad =
-      AngleBetween(a.world_from_root.toRotationMatrix(), b.world_from_root.toRotationMatrix());
-  int count = 1;
-  int first = 0;
-  for (const Bone& bone : skeleton.bones) {
-    if (bone.dofs.empty()) continue;
-    sum_rad += AngleBetween(RotationOfDofs(bone.dofs, a.dofs.data() + first),
-                            RotationOfDofs(bone.dofs, b.dofs.data() + first));
-    first += static_cast<int>(bone.dofs.size());
-    ++count;
-  }
-  return sum_rad / count * kDegFromRad;
 }
 
 MotionEvaluation Run(const NamedMotionMethod& named, const MotionTrial& trial,

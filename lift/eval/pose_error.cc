@@ -6,6 +6,9 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
+#include "src/dof_angles.h"
+#include "src/units.h"
+
 namespace poselift {
 namespace {
 
@@ -29,6 +32,26 @@ double CamError_mm(const Pose3& estimate, const Pose3& truth) {
   const double squared = from.squaredNorm();
   const double scale = squared > 0.0 ? std::max(0.0, from.cwiseProduct(to).sum() / squared) : 0.0;
   return MeanDistance_mm(scale * from, to);
+}
+
+double RootError_mm(const Pose3& estimate, const Pose3& truth) {
+  return MeanDistance_mm(estimate.colwise() - estimate.col(joint::kPelvis),
+                         truth.colwise() - truth.col(joint::kPelvis));
+}
+
+double MeanAngle_deg(const Skeleton& skeleton, const SkeletonPose& a, const SkeletonPose& b) {
+  double sum_rad =
+      AngleBetween(a.world_from_root.toRotationMatrix(), b.world_from_root.toRotationMatrix());
+  int count = 1;
+  int first = 0;
+  for (const Bone& bone : skeleton.bones) {
+    if (bone.dofs.empty()) continue;
+    sum_rad += AngleBetween(RotationOfDofs(bone.dofs, a.dofs.data() + first),
+                            RotationOfDofs(bone.dofs, b.dofs.data() + first));
+    first += static_cast<int>(bone.dofs.size());
+    ++count;
+  }
+  return sum_rad / count * kDegFromRad;
 }
 
 }  // namespace poselift

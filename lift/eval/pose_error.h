@@ -3,6 +3,7 @@
 #pragma once
 
 #include "src/pose3.h"
+#include "src/skeleton.h"
 
 namespace poselift {
 
@@ -16,5 +17,12 @@ double PaError_mm(const Pose3& estimate, const Pose3& truth);
 // ... translation and scale alone: what a viewer in the camera's frame sees
 // (CAM). The scale is positive.
 double CamError_mm(const Pose3& estimate, const Pose3& truth);
+
+// ... translation of the pelvis onto the pelvis alone: sizes count too.
+double RootError_mm(const Pose3& estimate, const Pose3& truth);
+
+// Mean angle between two poses' rotations of the root and of every bone that
+// turns, each relative to its parent.
+double MeanAngle_deg(const Skeleton& skeleton, const SkeletonPose& a, const SkeletonPose& b);
 
 }  // namespace poselift

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kWidth = 760.0, kHeight = 340.0;
 constexpr double kLeft = 52.0, kRight = 12.0, kTop = 34.0, kBottom = 62.0;
+constexpr double kLegendRow = 20.0;
 constexpr double kGroupGap = 0.25;  // of a group's width
 
 // Okabe and Ito: distinct in every common colour blindness.
@@ -97,16 +98,25 @@ std::string Bars(const BarChart& chart, double top) {
   return svg;
 }
 
-std::string Legend(const std::vector<std::string>& series) {
-  std::string svg;
-  const double width = (kWidth - kLeft - kRight) / static_cast<double>(series.size());
+// About; the font is the viewer's.
+double TextWidth(const std::string& text) { return 6.6 * static_cast<double>(text.size()); }
+
+// Rows as full as they go, below the groups' names. Returns where the picture ends.
+double Legend(const std::vector<std::string>& series, std::string* svg) {
+  double x = kLeft, y = kHeight - 26.0;
   for (size_t s = 0; s < series.size(); ++s) {
-    const double x = kLeft + width * static_cast<double>(s);
-    svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"11\" height=\"11\" fill=\"{}\"/>\n",
-                       x, kHeight - 26.0, kColors[s % kColors.size()]);
-    svg += Text(x + 16.0, kHeight - 16.0, "start", series[s]);
+    const double width = 16.0 + TextWidth(series[s]);
+    if (x > kLeft && x + width > kWidth - kRight) {
+      x = kLeft;
+      y += kLegendRow;
+    }
+    *svg +=
+        fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"11\" height=\"11\" fill=\"{}\"/>\n", x,
+                    y, kColors[s % kColors.size()]);
+    *svg += Text(x + 16.0, y + 10.0, "start", series[s]);
+    x += width + 18.0;
   }
-  return svg;
+  return y + 26.0;
 }
 
 }  // namespace
@@ -119,13 +129,15 @@ std::string BarChartSvg(const BarChart& chart) {
                                             chart.values.rows(), chart.values.cols(),
                                             chart.series.size(), chart.groups.size()));
   const double top = Top(chart);
+  std::string body =
+      Text(0.5 * kWidth, 20.0, "middle", chart.title) + Scale(top, chart.unit) + Bars(chart, top);
+  const double bottom = Legend(chart.series, &body);
   return fmt::format(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
              "viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"12\">\n"
              "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-             kWidth, kHeight) +
-         Text(0.5 * kWidth, 20.0, "middle", chart.title) + Scale(top, chart.unit) +
-         Bars(chart, top) + Legend(chart.series) + "</svg>\n";
+             kWidth, bottom) +
+         body + "</svg>\n";
 }
 
 }  // namespace poselift

@@ -9,6 +9,7 @@
 
 #include <limits>
 #include <regex>
+#include <set>
 #include <stdexcept>
 
 namespace poselift {
@@ -61,6 +62,19 @@ TEST(BarChart, CutsBarsOffAndSaysTheirValue) {
   EXPECT_NEAR(heights[1] / heights[0], 2.0, 0.01);
   EXPECT_THAT(svg, HasSubstr(">30<"));
   EXPECT_THAT(svg, HasSubstr(">40<"));
+}
+
+TEST(BarChart, LongLegendsGoOnInAnotherRow) {
+  BarChart chart{"errors", "mm", {"walking"}, {}, {}, 0.0};
+  chart.series.assign(9, "a method with a long name");
+  chart.values.setOnes(9, 1);
+  const std::string svg = BarChartSvg(chart);
+  std::set<std::string> rows;
+  const std::regex sample("y=\"([0-9.]+)\" width=\"11\"");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), sample), end; it != end; ++it)
+    rows.insert((*it)[1]);
+  EXPECT_EQ(rows.size(), 3u);
+  EXPECT_THAT(svg, HasSubstr("height=\"380\""));  // two rows more than one legend's
 }
 
 TEST(BarChart, LeavesOutWhatIsNoValue) {

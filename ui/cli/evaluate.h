@@ -9,5 +9,6 @@ namespace poselift::cli {
 // The tables of `poselift evaluate`.
 CLI::App* AddEvaluateLift(CLI::App* evaluate, Run* run);
 CLI::App* AddEvaluateMotion(CLI::App* evaluate, Run* run);
+CLI::App* AddEvaluateSequence(CLI::App* evaluate, Run* run);
 
 }  // namespace poselift::cli

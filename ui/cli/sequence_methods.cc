@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "ui/cli/sequence_methods.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "lift/baselines/butterworth.h"
+#include "lift/baselines/interpolation.h"
+#include "lift/baselines/one_euro.h"
+#include "lift/baselines/savitzky_golay.h"
+#include "lift/lift_photo.h"
+#include "lift/rotation.h"
+#include "src/forward_kinematics.h"
+
+namespace poselift::cli {
+namespace {
+
+using Sequence = std::vector<Observation>;
+
+// Every frame on its own, its best pose; the pose before where it cannot be lifted
+// (the rest pose before any).
+std::vector<Pose3> LiftFrames(const PhotoLifter& lifter, const Sequence& sequence) {
+  const Skeleton& skeleton = lifter.dictionary().skeleton;
+  Pose3 last =
+      CamFromBody(Eigen::Vector3d::Zero()) * JointPositions(skeleton, SkeletonPose::Rest(skeleton));
+  std::vector<Pose3> poses;
+  for (const Observation& observation : sequence) {
+    const LiftResult result = lifter.LiftPhoto(observation);
+    if (result.IsUsable()) last = result.poses.front().joints_in_cam_m;
+    poses.push_back(last);
+  }
+  return poses;
+}
+
+// The labels as curves, two channels for each landmark that maps to joints, gaps
+// filled with straight lines, low-pass filtered.
+Sequence FilteredLabels(const Sequence& sequence, double frame_time_s, double cutoff_hz) {
+  const Layout& layout = *FindLayout("body15");
+  const auto num_landmarks = static_cast<Eigen::Index>(layout.landmarks.size());
+  Eigen::MatrixXd curves_px = Eigen::MatrixXd::Constant(
+      2 * num_landmarks, static_cast<Eigen::Index>(sequence.size()), std::nan(""));
+  for (size_t t = 0; t < sequence.size(); ++t)
+    for (const ObservedPoint& point : sequence[t].points)
+      curves_px.col(static_cast<Eigen::Index>(t)).segment<2>(2 * layout.Find(point.name).value()) =
+          point.x.head<2>();
+  curves_px = ButterworthLowPass(FillGaps(curves_px, GapFill::kLinear).curves, 1.0 / frame_time_s,
+                                 {.cutoff_hz = cutoff_hz});
+  Sequence filtered;
+  for (Eigen::Index t = 0; t < curves_px.cols(); ++t) {
+    PersonLabels labels;
+    for (Eigen::Index i = 0; i < num_landmarks; ++i) {
+      const Eigen::Vector2d x_px = curves_px.col(t).segment<2>(2 * i);
+      if (x_px.allFinite())  // a landmark that was never seen
+        labels.landmarks.push_back(
+            {std::string(layout.landmarks[static_cast<size_t>(i)].name), x_px});
+    }
+    filtered.push_back(Observe(labels, layout));
+  }
+  return filtered;
+}
+
+// A filter of the joints' curves, each coordinate on its own.
+using CurveFilter = std::function<Eigen::MatrixXd(const Eigen::MatrixXd&, double frame_rate_hz)>;
+
+SequenceFilter OfJoints(std::string name, const CurveFilter& filter) {
+  return {std::move(name), [filter](const std::vector<Pose3>& poses, double frame_time_s) {
+            Eigen::MatrixXd curves_m(3 * kNumJoints, static_cast<Eigen::Index>(poses.size()));
+            for (size_t t = 0; t < poses.size(); ++t)
+              curves_m.col(static_cast<Eigen::Index>(t)) = Stacked(poses[t]);
+            curves_m = filter(curves_m, 1.0 / frame_time_s);
+            std::vector<Pose3> smoothed;
+            for (Eigen::Index t = 0; t < curves_m.cols(); ++t)
+              smoothed.push_back(Unstacked(curves_m.col(t)));
+            return smoothed;
+          }};
+}
+
+SequenceFilter Butterworth(std::string name, double cutoff_hz) {
+  return OfJoints(std::move(name), [cutoff_hz](const Eigen::MatrixXd& curves, double rate_hz) {
+    return ButterworthLowPass(curves, rate_hz, {.cutoff_hz = cutoff_hz});
+  });
+}
+
+SequenceFilter SavitzkyGolayOf(int window_frames) {
+  return OfJoints(fmt::format("Savitzky-Golay {} frames", window_frames),
+                  [window_frames](const Eigen::MatrixXd& curves, double) {
+                    return SavitzkyGolay(curves, {.window_frames = window_frames});
+                  });
+}
+
+SequenceFilter OneEuro(double min_cutoff_hz, double beta) {
+  return OfJoints(fmt::format("One Euro {:g} Hz, beta {:g}", min_cutoff_hz, beta),
+                  [=](const Eigen::MatrixXd& curves, double rate_hz) {
+                    return SmoothOneEuro(curves, rate_hz,
+                                         {.min_cutoff_hz = min_cutoff_hz, .beta = beta});
+                  });
+}
+
+}  // namespace
+
+std::vector<NamedSequenceMethod> SequenceMethods(const Dictionary& dictionary) {
+  const auto lifter = std::make_shared<PhotoLifter>(dictionary);
+  return {{"each frame alone",
+           [lifter](const Sequence& sequence, double) { return LiftFrames(*lifter, sequence); },
+           {Butterworth("Butterworth 1.5 Hz", 1.5), Butterworth("Butterworth 3 Hz", 3.0),
+            Butterworth("Butterworth 6 Hz", 6.0), SavitzkyGolayOf(9), SavitzkyGolayOf(21),
+            OneEuro(1.0, 3.0), OneEuro(0.5, 1.0)}},
+          {"labels at 4 Hz",
+           [lifter](const Sequence& sequence, double frame_time_s) {
+             return LiftFrames(*lifter, FilteredLabels(sequence, frame_time_s, 4.0));
+           },
+           {Butterworth("labels at 4 Hz, poses at 3 Hz", 3.0)}}};
+}
+
+}  // namespace poselift::cli
