@@ -13,7 +13,21 @@
 namespace poselift {
 namespace {
 
-// The shift of the body that suits the 3D points best.
+// Different codes may end in one pose: of those the best stays.
+void KeepDistinct(double distinct_m, std::vector<LiftedPose>* sorted) {
+  std::vector<LiftedPose> distinct;
+  for (LiftedPose& pose : *sorted) {
+    const bool is_new = std::all_of(distinct.begin(), distinct.end(), [&](const LiftedPose& d) {
+      return (d.joints_in_cam_m - pose.joints_in_cam_m).norm() >=
+             distinct_m * std::sqrt(kNumJoints);
+    });
+    if (is_new) distinct.push_back(std::move(pose));
+  }
+  *sorted = std::move(distinct);
+}
+
+}  // namespace
+
 Eigen::Vector3d MeanShift_m(const Observation& observation, const Pose3& joints_in_cam_m) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double weights = 0.0;
@@ -47,21 +61,6 @@ void MeasureErrors(const Observation& observation, LiftedPose* lifted) {
   if (const int count = observation.Count(ObservedPoint::Kind::k2D); count > 0)
     lifted->reprojection_rms_px = std::sqrt(squared_px / count);
 }
-
-// Different codes may end in one pose: of those the best stays.
-void KeepDistinct(double distinct_m, std::vector<LiftedPose>* sorted) {
-  std::vector<LiftedPose> distinct;
-  for (LiftedPose& pose : *sorted) {
-    const bool is_new = std::all_of(distinct.begin(), distinct.end(), [&](const LiftedPose& d) {
-      return (d.joints_in_cam_m - pose.joints_in_cam_m).norm() >=
-             distinct_m * std::sqrt(kNumJoints);
-    });
-    if (is_new) distinct.push_back(std::move(pose));
-  }
-  *sorted = std::move(distinct);
-}
-
-}  // namespace
 
 std::string LiftPhotoOptions::Validate() const {
   for (const std::string& error : {lifter.Validate(), refinement.Validate()})

@@ -46,6 +46,12 @@ struct LiftedPose {
   double reprojection_rms_px = -1.0;  // over the 2D points; -1 without any
 };
 
+// The shift of the body that suits the 3D points best; 0 without any.
+Eigen::Vector3d MeanShift_m(const Observation& observation, const Pose3& joints_in_cam_m);
+
+// Sets point_errors and reprojection_rms_px.
+void MeasureErrors(const Observation& observation, LiftedPose* lifted);
+
 enum class LiftStatus { kNotRun, kOk, kCannotLift, kFailed };
 
 struct LiftResult {

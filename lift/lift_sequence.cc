@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "lift/lift_sequence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <iterator>
+
+#include "lift/choose_alternatives.h"
+#include "lift/perspective.h"
+#include "lift/point_curves.h"
+#include "src/dof_angles.h"
+#include "src/forward_kinematics.h"
+#include "src/input_error.h"
+
+namespace poselift {
+namespace {
+
+constexpr double kScaleWindow_s = 1.5;
+
+// A part of the sequence in which every frame could be lifted by itself, or
+// lies between two that could.
+std::vector<FrameSpan> RunsOf(const std::vector<Observation>& frames) {
+  std::vector<bool> can_lift;
+  for (const Observation& frame : frames) can_lift.push_back(CanLift(frame).empty());
+  return SpansOf(can_lift);
+}
+
+// The median of what lies around each frame.
+std::vector<double> RunningMedian(const std::vector<double>& values, std::ptrdiff_t reach) {
+  std::vector<double> medians, window;
+  for (std::ptrdiff_t t = 0; t < std::ssize(values); ++t) {
+    window.assign(values.begin() + std::max<std::ptrdiff_t>(0, t - reach),
+                  values.begin() + std::min(std::ssize(values), t + reach + 1));
+    std::nth_element(window.begin(), window.begin() + std::ssize(window) / 2, window.end());
+    medians.push_back(window[window.size() / 2]);
+  }
+  return medians;
+}
+
+// Of the angles that are the same rotation those nearest to rest, on which
+// branch the codebook has them.
+SkeletonPose OnRestBranch(const Skeleton& skeleton, SkeletonPose pose) {
+  Eigen::VectorXd nearest = Eigen::VectorXd::Zero(pose.dofs.size());
+  Eigen::Index first = 0;
+  for (const Bone& bone : skeleton.bones) {
+    FitDofAngles(RotationOfDofs(bone.dofs, pose.dofs.data() + first), bone.dofs,
+                 nearest.data() + first);
+    first += std::ssize(bone.dofs);
+  }
+  pose.dofs = nearest;
+  return pose;
+}
+
+// Frames whose lift failed take the result of the nearest one in time. False
+// when all failed.
+bool BorrowMissing(std::vector<LiftResult>* frames) {
+  std::vector<size_t> usable;
+  for (size_t t = 0; t < frames->size(); ++t)
+    if (!(*frames)[t].poses.empty()) usable.push_back(t);
+  if (usable.empty()) return false;
+  for (size_t t = 0; t < frames->size(); ++t) {
+    if (!(*frames)[t].poses.empty()) continue;
+    const size_t nearest = *std::min_element(usable.begin(), usable.end(), [t](size_t a, size_t b) {
+      return (a < t ? t - a : a - t) < (b < t ? t - b : b - t);
+    });
+    (*frames)[t] = (*frames)[nearest];
+  }
+  return true;
+}
+
+// The points in the axes of SegmentViews: as they are seen, in metres at the
+// sequence's scale, and as deep as in the pose; those not seen as in the pose.
+Eigen::Matrix3Xd PlacedPoints_m(const std::vector<ObservedPoint>& points, const Observation& seen,
+                                const LiftedPose& lifted, double scale_px_per_m) {
+  Eigen::Matrix3Xd placed_m(3, std::ssize(points));
+  for (Eigen::Index i = 0; i < placed_m.cols(); ++i) {
+    const ObservedPoint& point = points[static_cast<size_t>(i)];
+    const Eigen::Vector3d x_in_cam_m = SumOfJoints(point.parts, lifted.joints_in_cam_m);
+    const auto found =
+        std::find_if(seen.points.begin(), seen.points.end(),
+                     [&](const ObservedPoint& now) { return now.name == point.name; });
+    Eigen::Vector2d x_px =
+        lifted.camera.scale_px_per_m * x_in_cam_m.head<2>() + lifted.camera.translation_px;
+    if (found != seen.points.end() && found->kind == ObservedPoint::Kind::k2D)
+      x_px = found->x.head<2>();
+    placed_m.col(i) << x_px.x() / scale_px_per_m, -x_px.y() / scale_px_per_m, -x_in_cam_m.z();
+  }
+  return placed_m;
+}
+
+// A curve of points at any time: linear between frames, held at the ends.
+Eigen::Matrix3Xd PointsAt(const std::vector<Eigen::Matrix3Xd>& frames, double t) {
+  const double last = static_cast<double>(frames.size() - 1);
+  const double clamped = std::clamp(t, 0.0, last);
+  const auto before = static_cast<size_t>(clamped);
+  const size_t after = std::min(before + 1, frames.size() - 1);
+  const double u = clamped - static_cast<double>(before);
+  return (1.0 - u) * frames[before] + u * frames[after];
+}
+
+}  // namespace
+
+std::string LiftSequenceOptions::Validate() const {
+  for (const std::string& error : {views.Validate(), local.Validate(), refinement.Validate()})
+    if (!error.empty()) return error;
+  if (!(label_cutoff_hz >= 0.0))
+    return fmt::format("LiftSequenceOptions::label_cutoff_hz = {}, wanted >= 0", label_cutoff_hz);
+  if (!(max_gap_s >= 0.0))
+    return fmt::format("LiftSequenceOptions::max_gap_s = {}, wanted >= 0", max_gap_s);
+  if (num_neighbours < 1)
+    return fmt::format("LiftSequenceOptions::num_neighbours = {}, wanted at least 1",
+                       num_neighbours);
+  if (!(depth_weight >= 0.0))
+    return fmt::format("LiftSequenceOptions::depth_weight = {}, wanted >= 0", depth_weight);
+  return "";
+}
+
+// What is known of the frames of a run, stage by stage.
+struct SequenceLifter::Run {
+  double frame_time_s;
+  std::vector<Observation> seen;    // the labels
+  std::vector<Observation> smooth;  // and their smoothed curves
+  std::vector<LiftResult> alone;    // each frame lifted by itself, none without a pose
+  std::vector<LiftedPose> chosen;   // of its poses
+  std::vector<double> scales_px_per_m;
+  std::vector<LocalPose> local;
+};
+
+SequenceLifter::SequenceLifter(const PhotoLifter& lifter, const MotionCodebook& codebook,
+                               const LiftSequenceOptions& options)
+    : lifter_(lifter),
+      codebook_(codebook),
+      options_(options),
+      refinement_(lifter.dictionary().skeleton, lifter.dictionary().prior, options.refinement) {
+  if (const std::string error = options_.Validate(); !error.empty()) throw InputError(error);
+  if (codebook.skeleton.NumDofs() != lifter.dictionary().skeleton.NumDofs())
+    throw InputError(
+        "found a motion model and a dictionary of different skeletons, wanted one "
+        "skeleton: learn both from the same motions");
+}
+
+LiftedSequence SequenceLifter::LiftSequence(const std::vector<Observation>& frames,
+                                            double frame_time_s, const ProgressFn& progress) const {
+  if (!(frame_time_s > 0.0 && frame_time_s <= kLongestFrameTime_s))
+    throw InputError(fmt::format("found {} s between frames, wanted more than 0 and at most {}",
+                                 frame_time_s, kLongestFrameTime_s));
+  const int max_gap_frames = static_cast<int>(std::floor(options_.max_gap_s / frame_time_s));
+  const std::vector<Observation> smooth =
+      SmoothPoints(frames, frame_time_s, options_.label_cutoff_hz, max_gap_frames);
+  LiftedSequence lifted{std::vector<LiftResult>(frames.size()),
+                        std::vector<bool>(frames.size(), false)};
+  for (size_t t = 0; t < frames.size(); ++t) {
+    lifted.frames[t].status = LiftStatus::kCannotLift;
+    lifted.frames[t].message = CanLift(frames[t]);
+  }
+  for (const FrameSpan& span : RunsOf(smooth)) {
+    const auto part = [&](const std::vector<Observation>& all) {
+      return std::vector<Observation>(all.begin() + span.first, all.begin() + span.last + 1);
+    };
+    Run run{frame_time_s, part(frames), part(smooth)};
+    if (!LiftEach(&run, progress)) continue;
+    FindLocalPoses(&run);
+    std::vector<LiftedPose> together = Refine(run);
+    for (size_t i = 0; i < together.size(); ++i) {
+      const size_t t = i + static_cast<size_t>(span.first);
+      lifted.filled[t] = !CanLift(frames[t]).empty();
+      lifted.frames[t] = std::move(run.alone[i]);
+      auto& poses = lifted.frames[t].poses;
+      poses.insert(poses.begin(), std::move(together[i]));
+    }
+  }
+  return lifted;
+}
+
+// Frame by frame, then the alternatives that go together. False when no frame
+// has a pose.
+bool SequenceLifter::LiftEach(Run* run, const ProgressFn& progress) const {
+  const size_t num_frames = run->smooth.size();
+  run->alone.resize(num_frames);
+  std::atomic<size_t> done = 0;
+#pragma omp parallel for schedule(dynamic)
+  for (size_t t = 0; t < num_frames; ++t) {
+    run->alone[t] = lifter_.LiftPhoto(run->smooth[t]);
+    const size_t now = ++done;
+    if (progress) progress(static_cast<double>(now) / static_cast<double>(num_frames));
+  }
+  if (!BorrowMissing(&run->alone)) return false;
+  const std::vector<int> chosen = ChooseAlternatives(run->alone, run->frame_time_s);
+  std::vector<double> scales_px_per_m;
+  for (size_t t = 0; t < num_frames; ++t) {
+    auto& poses = run->alone[t].poses;
+    run->chosen.push_back(poses[static_cast<size_t>(chosen[t])]);
+    poses.erase(poses.begin() + chosen[t]);  // the rest stay as alternatives
+    scales_px_per_m.push_back(run->chosen.back().camera.scale_px_per_m);
+  }
+  run->scales_px_per_m =
+      RunningMedian(scales_px_per_m, std::lround(0.5 * kScaleWindow_s / run->frame_time_s));
+  return true;
+}
+
+// Each frame as a moment of the codebook: the points as they were seen, where
+// they were, with the depth of the chosen pose.
+void SequenceLifter::FindLocalPoses(Run* run) const {
+  const std::vector<ObservedPoint> points = PointsOf(run->smooth);
+  std::vector<std::vector<Landmark::Part>> parts;
+  for (const ObservedPoint& point : points) parts.push_back(point.parts);
+  std::vector<Eigen::Matrix3Xd> placed_m;
+  for (size_t t = 0; t < run->smooth.size(); ++t)
+    placed_m.push_back(
+        PlacedPoints_m(points, run->smooth[t], run->chosen[t], run->scales_px_per_m[t]));
+
+  const double frames_a_sample = codebook_.sample_time_s / run->frame_time_s;
+  const auto num_points = std::ssize(points);
+  std::vector<SegmentViews::Query> queries;
+  for (size_t t = 0; t < placed_m.size(); ++t) {
+    SegmentViews::Query& query = queries.emplace_back(3, kSegmentSamples * num_points);
+    for (int k = 0; k < kSegmentSamples; ++k)
+      query.middleCols(k * num_points, num_points) =
+          PointsAt(placed_m, static_cast<double>(t) + (k - kMiddleSample) * frames_a_sample);
+  }
+  const auto views = SegmentViews(codebook_, parts, options_.views)
+                         .FindNearest(queries, options_.depth_weight, options_.num_neighbours);
+  for (const std::vector<SegmentView>& near : views)
+    run->local.push_back(MakeLocalPose(codebook_, near, options_.depth_weight, options_.local));
+}
+
+std::vector<LiftedPose> SequenceLifter::Refine(const Run& run) const {
+  const Skeleton& skeleton = lifter_.dictionary().skeleton;
+  std::vector<FrameEvidence> evidence;
+  for (size_t t = 0; t < run.seen.size(); ++t) {
+    const LiftedPose& chosen = run.chosen[t];
+    FrameEvidence& frame = evidence.emplace_back();
+    frame.observation = run.seen[t].pinhole
+                            ? AsWeakPerspective(run.seen[t], chosen.joints_in_cam_m, chosen.camera)
+                            : run.seen[t];
+    frame.start = OnRestBranch(skeleton, chosen.pose);
+    frame.start.root_in_world_m = MeanShift_m(run.seen[t], chosen.joints_in_cam_m);
+    frame.camera = chosen.camera;
+    frame.camera.translation_px -=
+        chosen.camera.scale_px_per_m * frame.start.root_in_world_m.head<2>();
+    frame.camera.scale_px_per_m = run.scales_px_per_m[t];
+    frame.lifted_in_cam_m = chosen.joints_in_cam_m;
+    frame.local = run.local[t];
+  }
+  const std::vector<RefinedFrame> refined = refinement_.Solve(evidence, run.frame_time_s);
+  std::vector<LiftedPose> together;
+  for (size_t t = 0; t < refined.size(); ++t) {
+    LiftedPose& lifted = together.emplace_back(run.chosen[t]);
+    lifted.pose = refined[t].pose;
+    lifted.camera = refined[t].camera;
+    lifted.camera.translation_px +=
+        lifted.camera.scale_px_per_m * lifted.pose.root_in_world_m.head<2>();
+    lifted.pose.root_in_world_m.setZero();
+    lifted.joints_in_cam_m = JointPositions(skeleton, lifted.pose);
+    if (run.seen[t].pinhole)
+      lifted.pelvis_in_cam_m = PelvisInCam_m(*run.seen[t].pinhole, lifted.camera);
+    MeasureErrors(run.seen[t], &lifted);
+  }
+  return together;
+}
+
+}  // namespace poselift

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lift/frame_span.h"
+#include "lift/lift_photo.h"
+#include "lift/temporal/local_pose.h"
+#include "lift/temporal/motion_codebook.h"
+#include "lift/temporal/segment_views.h"
+#include "lift/temporal/sequence_refinement.h"
+#include "src/progress.h"
+
+namespace poselift {
+
+struct LiftSequenceOptions {
+  double label_cutoff_hz = 4.0;  // of the label curves that frames are lifted from
+  double max_gap_s = 0.5;        // longer without labels, a frame has no pose
+  int num_neighbours = 50;
+  double depth_weight = 0.4;  // of SegmentViews
+  SegmentViewsOptions views;
+  LocalPoseOptions local;
+  SequenceRefinementOptions refinement;
+
+  std::string Validate() const;  // empty, or which option is wrong and why
+};
+
+struct LiftedSequence {
+  // A frame each. The first pose of a frame is that of the whole sequence; behind
+  // it come the alternatives of the frame by itself.
+  std::vector<LiftResult> frames;
+  std::vector<bool> filled;  // there were too few labels for the frame alone
+};
+
+// From the observed points of one person in the frames of a video to poses that
+// are one motion. The camera is level and stands still, or nearly so; between it
+// and weak perspective the rest is as in PhotoLifter.
+class SequenceLifter {
+ public:
+  // The lifter and the codebook must outlive this. Throws InputError for options
+  // that are wrong and for a codebook of another skeleton than the dictionary's.
+  SequenceLifter(const PhotoLifter& lifter, const MotionCodebook& codebook,
+                 const LiftSequenceOptions& options = {});
+
+  // frames: at even times; one without points is a frame where nothing was seen.
+  // The longest frame time at which a motion can be told is kLongestFrameTime_s;
+  // beyond it throws InputError.
+  LiftedSequence LiftSequence(const std::vector<Observation>& frames, double frame_time_s,
+                              const ProgressFn& progress = {}) const;
+
+  static constexpr double kLongestFrameTime_s = 0.1;
+
+ private:
+  struct Run;
+  bool LiftEach(Run* run, const ProgressFn& progress) const;
+  void FindLocalPoses(Run* run) const;
+  std::vector<LiftedPose> Refine(const Run& run) const;
+
+  const PhotoLifter& lifter_;
+  const MotionCodebook& codebook_;
+  LiftSequenceOptions options_;
+  SequenceRefinement refinement_;
+};
+
+}  // namespace poselift

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+//
+// A planted walk, seen by a level camera with noise, through the whole of
+// LiftSequence. The dictionary is the one that ships; the motion model is the walk
+// itself in other phases, so that what is tested is how the parts fit together.
+#include "lift/lift_sequence.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "lift/default_dictionary.h"
+#include "lift/dictionary_file.h"
+#include "lift/eval/pose_error.h"
+#include "lift/rotation.h"
+#include "src/forward_kinematics.h"
+#include "src/input_error.h"
+#include "tests/support/planted_walk.h"
+#include "tests/support/support.h"
+
+namespace poselift {
+namespace {
+
+constexpr double kFrameTime_s = 1.0 / 30.0;
+constexpr double kScale_px_per_m = 180.0;
+
+class LiftSequenceTest : public ::testing::Test {
+ protected:
+  LiftSequenceTest()
+      : dictionary_(ReadDictionary(DefaultDictionaryPath())),
+        lifter_(dictionary_),
+        walk_(OnStandardSkeleton(testing::PlantWalk(200, 0.6, 0.0).motion, dictionary_.skeleton,
+                                 1.0 / 60.0)),
+        codebook_(Learn()) {}
+
+  MotionCodebook Learn() const {
+    MotionDatabase database{dictionary_.skeleton, 1.0 / 60.0, {}, {}};
+    database.Append("walk", MotionFeatures(walk_));
+    return SegmentsOf(database, 2);
+  }
+
+  // From the side, every other frame of the walk from its 40th on.
+  void See(int num_frames, double noise_px) {
+    auto rng = testing::TestRng();
+    std::normal_distribution<double> noise(0.0, noise_px);
+    const Eigen::Matrix3d cam_from_world = CamFromBody({0.0, 1.2, 0.0});
+    for (int t = 0; t < num_frames; ++t) {
+      const SkeletonPose& pose = walk_.frames[static_cast<size_t>(40 + 2 * t)];
+      truth_.push_back(cam_from_world * JointPositions(walk_.skeleton, pose));
+      Observation& frame = frames_.emplace_back();
+      for (const Landmark& landmark : FindLayout("body15")->landmarks) {
+        const Eigen::Vector3d x_in_cam_m = SumOfJoints(landmark.parts, truth_.back());
+        ObservedPoint point{std::string(landmark.name), landmark.parts};
+        point.x << kScale_px_per_m * x_in_cam_m.head<2>() + Eigen::Vector2d(noise(rng), noise(rng)),
+            0.0;
+        point.sigma = 4.0;
+        frame.points.push_back(point);
+      }
+    }
+  }
+
+  double Error_mm(const LiftedSequence& lifted) const {
+    double sum_mm = 0.0;
+    for (size_t t = 0; t < truth_.size(); ++t)
+      sum_mm += CamError_mm(lifted.frames[t].poses.front().joints_in_cam_m, truth_[t]);
+    return sum_mm / static_cast<double>(truth_.size());
+  }
+
+  Dictionary dictionary_;
+  PhotoLifter lifter_;
+  Motion walk_;
+  MotionCodebook codebook_;
+  std::vector<Observation> frames_;
+  std::vector<Pose3> truth_;
+};
+
+TEST_F(LiftSequenceTest, IsNearerToAKnownMotionThanFramesAlone) {
+  See(24, 4.0);
+  double alone_mm = 0.0;
+  for (size_t t = 0; t < frames_.size(); ++t)
+    alone_mm += CamError_mm(lifter_.LiftPhoto(frames_[t]).poses.front().joints_in_cam_m, truth_[t]);
+  alone_mm /= static_cast<double>(frames_.size());
+  const SequenceLifter lifter(lifter_, codebook_);
+  EXPECT_LT(Error_mm(lifter.LiftSequence(frames_, kFrameTime_s)), 0.6 * alone_mm);
+}
+
+TEST_F(LiftSequenceTest, FillsAShortGapAndSaysSo) {
+  See(20, 1.0);
+  for (const size_t t : {8, 9, 10}) frames_[t].points.clear();
+  const SequenceLifter lifter(lifter_, codebook_);
+  const LiftedSequence lifted = lifter.LiftSequence(frames_, kFrameTime_s);
+  for (size_t t = 0; t < frames_.size(); ++t) {
+    EXPECT_TRUE(lifted.frames[t].IsUsable());
+    EXPECT_EQ(lifted.filled[t], t >= 8 && t <= 10) << t;
+  }
+  EXPECT_LT(CamError_mm(lifted.frames[9].poses.front().joints_in_cam_m, truth_[9]), 60.0);
+}
+
+TEST_F(LiftSequenceTest, ALongGapStaysOpen) {
+  See(16, 1.0);
+  for (size_t t = 5; t < 11; ++t) frames_[t].points.clear();
+  const SequenceLifter lifter(lifter_, codebook_, {.max_gap_s = 0.1});
+  const LiftedSequence lifted = lifter.LiftSequence(frames_, kFrameTime_s);
+  for (size_t t = 0; t < frames_.size(); ++t)
+    EXPECT_EQ(lifted.frames[t].IsUsable(), t < 5 || t >= 11) << t;
+  EXPECT_FALSE(lifted.frames[7].message.empty());
+}
+
+TEST_F(LiftSequenceTest, NothingSeenIsNothingLifted) {
+  const SequenceLifter lifter(lifter_, codebook_);
+  EXPECT_TRUE(lifter.LiftSequence({}, kFrameTime_s).frames.empty());
+  const LiftedSequence lifted = lifter.LiftSequence(std::vector<Observation>(5), kFrameTime_s);
+  for (const LiftResult& frame : lifted.frames) EXPECT_FALSE(frame.IsUsable());
+}
+
+TEST_F(LiftSequenceTest, PiecesAreNearlyTheWhole) {
+  See(24, 2.0);
+  LiftSequenceOptions in_pieces;
+  in_pieces.refinement.piece_frames = 8;
+  in_pieces.refinement.overlap_frames = 6;
+  const LiftedSequence whole =
+      SequenceLifter(lifter_, codebook_).LiftSequence(frames_, kFrameTime_s);
+  const LiftedSequence pieces =
+      SequenceLifter(lifter_, codebook_, in_pieces).LiftSequence(frames_, kFrameTime_s);
+  for (size_t t = 0; t < frames_.size(); ++t)
+    EXPECT_LT((whole.frames[t].poses.front().joints_in_cam_m -
+               pieces.frames[t].poses.front().joints_in_cam_m)
+                  .colwise()
+                  .norm()
+                  .mean(),
+              0.02)
+        << t;
+}
+
+TEST_F(LiftSequenceTest, SameInputSameBytes) {
+  See(8, 2.0);
+  const SequenceLifter lifter(lifter_, codebook_);
+  const LiftedSequence a = lifter.LiftSequence(frames_, kFrameTime_s);
+  const LiftedSequence b = lifter.LiftSequence(frames_, kFrameTime_s);
+  for (size_t t = 0; t < frames_.size(); ++t)
+    EXPECT_EQ(a.frames[t].poses.front().joints_in_cam_m, b.frames[t].poses.front().joints_in_cam_m);
+}
+
+TEST_F(LiftSequenceTest, RefusesWhatIsNoVideo) {
+  const SequenceLifter lifter(lifter_, codebook_);
+  EXPECT_THROW(lifter.LiftSequence({}, 0.5), InputError);
+  EXPECT_THROW(lifter.LiftSequence({}, 0.0), InputError);
+  EXPECT_THROW(SequenceLifter(lifter_, codebook_, {.num_neighbours = 0}), InputError);
+}
+
+}  // namespace
+}  // namespace poselift
