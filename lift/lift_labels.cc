@@ -2,9 +2,15 @@
 // Copyright (c) 2026 the poselift authors
 #include "lift/lift_labels.h"
 
+#include <algorithm>
 #include <atomic>
+#include <map>
 
+#include "lift/frame_span.h"
+#include "lift/poses_to_motion.h"
+#include "lift/temporal/frame_grid.h"
 #include "src/forward_kinematics.h"
+#include "src/input_error.h"
 #include "src/joint_angles.h"
 
 namespace poselift {
@@ -39,6 +45,57 @@ Observation ObserveThrough(const std::optional<Camera>& camera, const PersonLabe
   return observation;
 }
 
+std::optional<size_t> FindPerson(const std::vector<PersonLabels>& people, int id) {
+  for (size_t p = 0; p < people.size(); ++p)
+    if (people[p].id == id) return p;
+  return std::nullopt;
+}
+
+// The frames' times as places of an even grid; without an even one the nearest
+// places at the median step.
+FrameGrid GridOf(const Labels& labels) {
+  std::vector<double> times_s;
+  for (const FrameLabels& frame : labels.frames) {
+    if (!frame.time_s)
+      throw InputError("found a frame without time_s, wanted times for a sequence");
+    times_s.push_back(*frame.time_s);
+  }
+  FrameGrid grid = FitFrameGrid(times_s);
+  if (grid.is_even) return grid;
+  grid.first_s = times_s.front();
+  for (const double time_s : times_s) {
+    const int nearest = static_cast<int>(std::lround((time_s - grid.first_s) / grid.frame_time_s));
+    grid.places.push_back(grid.places.empty() ? 0 : std::max(nearest, grid.places.back() + 1));
+  }
+  return grid;
+}
+
+// One person, from their first frame to their last.
+struct Track {
+  struct Labelled {
+    size_t frame, person;  // of the labels
+    size_t place;          // in observations
+  };
+  std::vector<Observation> observations;
+  std::vector<Labelled> labelled;
+};
+
+Track TrackOf(const Labels& labels, int id, const FrameGrid& grid,
+              const std::optional<Camera>& camera, const Layout& layout) {
+  Track track;
+  int first_place = 0;
+  for (size_t f = 0; f < labels.frames.size(); ++f) {
+    const auto person = FindPerson(labels.frames[f].people, id);
+    if (!person) continue;
+    if (track.labelled.empty()) first_place = grid.places[f];
+    const auto place = static_cast<size_t>(grid.places[f] - first_place);
+    track.observations.resize(place + 1);
+    track.observations[place] = ObserveThrough(camera, labels.frames[f].people[*person], layout);
+    track.labelled.push_back({f, *person, place});
+  }
+  return track;
+}
+
 const char* StatusName(LiftStatus status) {
   switch (status) {
     case LiftStatus::kNotRun:
@@ -53,12 +110,10 @@ const char* StatusName(LiftStatus status) {
   return "";
 }
 
-std::vector<std::pair<std::string, double>> NamedAngles(const Skeleton& skeleton,
-                                                        const SkeletonPose& pose_in_cam) {
-  const Eigen::VectorXd values_deg = JointAngleReader(skeleton).ReadDeg(InWorld(pose_in_cam));
+std::vector<std::pair<std::string, double>> Named(const Eigen::VectorXd& angles_deg) {
   std::vector<std::pair<std::string, double>> named;
-  for (Eigen::Index i = 0; i < values_deg.size(); ++i)
-    named.emplace_back(JointAngles()[i].name, values_deg[i]);
+  for (Eigen::Index i = 0; i < angles_deg.size(); ++i)
+    named.emplace_back(JointAngles()[i].name, angles_deg[i]);
   return named;
 }
 
@@ -75,7 +130,7 @@ PersonPose ToPersonPose(const LiftResult& result, const Observation& observation
   person.translation_px = best.camera.translation_px;
   person.pelvis_in_cam_m = best.pelvis_in_cam_m;
   person.rotation_cam_from_body = Eigen::Quaterniond(best.camera.cam_from_body);
-  person.angles_deg = NamedAngles(skeleton, best.pose);
+  person.angles_deg = Named(JointAngleReader(skeleton).ReadDeg(InWorld(best.pose)));
   person.reprojection_rms_px = best.reprojection_rms_px;
   for (size_t i = 0; i < observation.points.size(); ++i)
     person.per_joint_px.emplace_back(observation.points[i].name,
@@ -117,6 +172,57 @@ LiftedLabels LiftLabels(const PhotoLifter& lifter, const Labels& labels,
   return lifted;
 }
 
+Labels WithPeopleBetween(const Labels& labels) {
+  std::map<int, FrameSpan> spans;  // of each person
+  for (int f = 0; f < std::ssize(labels.frames); ++f)
+    for (const PersonLabels& person : labels.frames[static_cast<size_t>(f)].people)
+      spans.try_emplace(person.id, FrameSpan{f, f}).first->second.last = f;
+  Labels complete = labels;
+  for (const auto& [id, span] : spans)
+    for (int f = span.first; f <= span.last; ++f) {
+      auto& people = complete.frames[static_cast<size_t>(f)].people;
+      if (!FindPerson(people, id)) people.push_back({id, {}});
+    }
+  return complete;
+}
+
+LiftedLabels LiftLabelsOverTime(const SequenceLifter& lifter, const Skeleton& skeleton,
+                                const Labels& labels, const std::optional<Camera>& camera,
+                                const ProgressFn& progress) {
+  const Layout& layout = *FindLayout(labels.layout);
+  const FrameGrid grid = GridOf(labels);
+  LiftedLabels lifted;
+  std::vector<int> ids;
+  for (const FrameLabels& frame : labels.frames) {
+    lifted.poses.frames.push_back({frame.image, frame.time_s, {}});
+    lifted.results.emplace_back(frame.people.size());
+    lifted.poses.frames.back().people.resize(frame.people.size());
+    for (const PersonLabels& person : frame.people)
+      if (std::find(ids.begin(), ids.end(), person.id) == ids.end()) ids.push_back(person.id);
+  }
+  for (size_t i = 0; i < ids.size(); ++i) {
+    const Track track = TrackOf(labels, ids[i], grid, camera, layout);
+    const auto so_far = [&](double part) {
+      if (progress) progress((static_cast<double>(i) + part) / static_cast<double>(ids.size()));
+    };
+    LiftedSequence sequence = lifter.LiftSequence(track.observations, grid.frame_time_s, so_far);
+    const JointAngleReader angles(skeleton);
+    Eigen::VectorXd angles_deg;  // of the frame before
+    for (const auto& [frame, person, place] : track.labelled) {
+      PersonPose& pose = lifted.poses.frames[frame].people[person];
+      pose = ToPersonPose(sequence.frames[place], track.observations[place], ids[i], skeleton);
+      if (sequence.filled[place]) pose.status = kFilledStatus;
+      if (sequence.frames[place].IsUsable()) {
+        const SkeletonPose now = InWorld(sequence.frames[place].poses.front().pose);
+        angles_deg = angles_deg.size() ? angles.ReadDeg(now, angles_deg) : angles.ReadDeg(now);
+        pose.angles_deg = Named(angles_deg);
+      }
+      lifted.results[frame][person] = std::move(sequence.frames[place]);
+    }
+  }
+  return lifted;
+}
+
 Motion ToMotion(const LiftedLabels& lifted, const Skeleton& skeleton, double frame_time_s) {
   Motion motion{skeleton, frame_time_s, {}};
   for (const auto& people : lifted.results) {
@@ -129,6 +235,30 @@ Motion ToMotion(const LiftedLabels& lifted, const Skeleton& skeleton, double fra
     motion.frames.push_back(std::move(pose));
   }
   return motion;
+}
+
+Motion ToMotionOverTime(const LiftedLabels& lifted, const Skeleton& skeleton) {
+  PosesMotion placed = PosesToMotion(lifted.poses, skeleton, {.with_filled = true});
+  std::vector<SkeletonPose>& frames = placed.motion.frames;
+  for (size_t t = 0; t < frames.size(); ++t) {
+    if (!IsKnown(frames[t])) {
+      if (t > 0) frames[t] = frames[t - 1];
+      continue;
+    }
+    // The joints alone do not tell every angle: those of the lift are better.
+    if (placed.source_frames[t] < 0) continue;
+    const auto source = static_cast<size_t>(placed.source_frames[t]);
+    const auto& people = lifted.poses.frames[source].people;
+    for (size_t p = 0; p < people.size(); ++p)
+      if (people[p].id == placed.person_id) {
+        const SkeletonPose pose = InWorld(lifted.results[source][p].poses.front().pose);
+        frames[t].dofs = pose.dofs;
+        frames[t].world_from_root = pose.world_from_root;
+      }
+  }
+  const auto known = std::find_if(frames.begin(), frames.end(), IsKnown);
+  frames.erase(frames.begin(), known);
+  return std::move(placed.motion);
 }
 
 }  // namespace poselift

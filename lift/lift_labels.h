@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "lift/lift_photo.h"
+#include "lift/lift_sequence.h"
 #include "src/camera.h"
 #include "src/labels.h"
 #include "src/layout.h"
@@ -23,6 +24,24 @@ struct LiftedLabels {
 // camera: when known, labels are freed of its lens distortion first.
 LiftedLabels LiftLabels(const PhotoLifter& lifter, const Labels& labels,
                         const std::optional<Camera>& camera, const ProgressFn& progress);
+
+// The same of a video: every person's frames as one motion (LiftSequence). In
+// frames between the first and the last of a person who has no labels there, the
+// poses are filled where the gap is short enough, with the status "filled".
+// labels: with times, and every person in each frame (WithPeopleBetween).
+// Throws InputError when the frames' times do not grow.
+LiftedLabels LiftLabelsOverTime(const SequenceLifter& lifter, const Skeleton& skeleton,
+                                const Labels& labels, const std::optional<Camera>& camera,
+                                const ProgressFn& progress);
+
+// The first person as one motion, filled frames too: where the picture or the
+// known camera has them (PosesToMotion), floor and all. A frame of which nothing
+// is known keeps the pose before it. Throws InputError when nobody was lifted.
+Motion ToMotionOverTime(const LiftedLabels& lifted, const Skeleton& skeleton);
+
+// Each person is in all frames from their first to their last, without landmarks
+// where there were no labels.
+Labels WithPeopleBetween(const Labels& labels);
 
 // The first person of the frames in order, as one motion: y up, the camera
 // level, the pelvis above the origin and the lowest joint on the floor. A frame

@@ -7,6 +7,7 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -14,6 +15,9 @@
 #include "lift/default_dictionary.h"
 #include "lift/dictionary_file.h"
 #include "lift/lift_labels.h"
+#include "lift/lift_sequence.h"
+#include "lift/poses_to_motion.h"
+#include "lift/temporal/motion_codebook_file.h"
 #include "src/io/angles_csv.h"
 #include "src/io/camera_yaml.h"
 #include "src/io/image.h"
@@ -44,6 +48,9 @@ struct Options {
   std::string out = ".";
   std::string truth;
   double fps = 30.0;
+  bool has_fps = false;
+  std::string motion_model;
+  bool frames_alone = false;
   bool propagate = true;
   double max_gap_s = 1.0;
   bool overlay_video = false;
@@ -67,12 +74,44 @@ double FrameTime_s(const Labels& labels, double fps) {
   return (*frames.back().time_s - *frames.front().time_s) / static_cast<double>(frames.size() - 1);
 }
 
+// Whether the frames are those of a motion: all have times, close to each other.
+bool AreOneMotion(const Labels& labels, const Options& options) {
+  const auto& frames = labels.frames;
+  return !options.frames_alone && options.method == MethodNames().front() && frames.size() > 2 &&
+         std::all_of(frames.begin(), frames.end(),
+                     [](const FrameLabels& frame) { return frame.time_s.has_value(); }) &&
+         FrameTime_s(labels, options.fps) <= SequenceLifter::kLongestFrameTime_s;
+}
+
+void SetTimes(double fps, Labels* labels) {
+  for (size_t f = 0; f < labels->frames.size(); ++f)
+    if (!labels->frames[f].time_s) labels->frames[f].time_s = static_cast<double>(f) / fps;
+}
+
+LiftedLabels LiftMotion(const PhotoLifter& lifter, const Labels& labels,
+                        const std::optional<Camera>& camera, const Options& options,
+                        const ProgressFn& progress) {
+  const MotionCodebook codebook = WithMirrored(ReadMotionCodebook(
+      options.motion_model.empty() ? DefaultMotionModelPath() : fs::path(options.motion_model)));
+  return LiftLabelsOverTime(SequenceLifter(lifter, codebook), lifter.dictionary().skeleton, labels,
+                            camera, progress);
+}
+
+bool AnyUsable(const LiftedLabels& lifted) {
+  for (const auto& people : lifted.results)
+    for (const LiftResult& result : people)
+      if (result.IsUsable()) return true;
+  return false;
+}
+
 void WriteResults(const LiftedLabels& lifted, const Labels& labels, const Skeleton& skeleton,
-                  const Options& options) {
+                  bool is_motion, const Options& options) {
   const fs::path out = options.out;
   WritePosesJson(lifted.poses, out / "poses.json");
   WriteAnglesCsv(lifted.poses, out / "angles.csv");
-  const Motion motion = ToMotion(lifted, skeleton, FrameTime_s(labels, options.fps));
+  if (!AnyUsable(lifted)) return;
+  const Motion motion = is_motion ? ToMotionOverTime(lifted, skeleton)
+                                  : ToMotion(lifted, skeleton, FrameTime_s(labels, options.fps));
   if (motion.frames.empty()) return;
   WriteMotion(motion, out / "poses.bvh");
   WriteMotion(motion, out / "poses.amc");
@@ -107,22 +146,28 @@ int Report(const LiftedLabels& lifted) {
   constexpr size_t kListed = 20;
   int people = 0;
   int usable = 0;
+  int filled = 0;
   for (size_t f = 0; f < lifted.results.size(); ++f)
     for (size_t p = 0; p < lifted.results[f].size(); ++p) {
       const LiftResult& result = lifted.results[f][p];
       ++people;
       usable += result.IsUsable() ? 1 : 0;
+      filled += lifted.poses.frames[f].people[p].status == kFilledStatus ? 1 : 0;
       if (lifted.results.size() > kListed && result.IsUsable()) continue;
       const std::string& image = lifted.poses.frames[f].image;
       fmt::print("{}, person {}: {}\n", image.empty() ? fmt::format("frame {}", f) : image,
                  lifted.poses.frames[f].people[p].id, result.BriefReport());
     }
   fmt::print("lifted {} of {} people in {} frames\n", usable, people, lifted.results.size());
+  if (filled > 0) fmt::print("{} of them from the frames around, for want of labels\n", filled);
   return usable;
 }
 
 int Lift(const Options& options) {
-  const LiftInputs inputs = Gather(options);
+  LiftInputs inputs = Gather(options);
+  if (options.has_fps) SetTimes(options.fps, &inputs.labels);
+  const bool is_motion = AreOneMotion(inputs.labels, options);
+  if (is_motion) inputs.labels = WithPeopleBetween(inputs.labels);
   std::optional<Camera> camera;
   if (!options.camera.empty()) camera = ReadCameraYaml(options.camera);
   const Dictionary dictionary = ReadDictionary(
@@ -134,8 +179,10 @@ int Lift(const Options& options) {
   fs::create_directories(options.out);
 
   Progress progress("lift", static_cast<int64_t>(inputs.labels.frames.size()), "frames");
-  const LiftedLabels lifted = LiftLabels(lifter, inputs.labels, camera, progress.Callback());
-  WriteResults(lifted, inputs.labels, dictionary.skeleton, options);
+  const LiftedLabels lifted =
+      is_motion ? LiftMotion(lifter, inputs.labels, camera, options, progress.Callback())
+                : LiftLabels(lifter, inputs.labels, camera, progress.Callback());
+  WriteResults(lifted, inputs.labels, dictionary.skeleton, is_motion, options);
   WriteAllPictures(lifted, inputs, camera, options);
   const int usable = Report(lifted);
   if (truth) PrintErrorAgainstTruth(lifted.poses, *truth);
@@ -168,9 +215,15 @@ CLI::App* AddLift(CLI::App* app, Run* run) {
       ->capture_default_str();
   command->add_option("--out", options->out, "Folder for the results; made when missing")
       ->capture_default_str();
-  command->add_option("--fps", options->fps, "Of frames without times")
+  command
+      ->add_option("--fps", options->fps,
+                   "Of frames without times; when given, they are lifted as one motion")
       ->check(IsFrameRate())
       ->capture_default_str();
+  command->add_option("--motion-model", options->motion_model,
+                      "For frames with times (default: the one that ships)");
+  command->add_flag("--frames-alone", options->frames_alone,
+                    "Lift each frame by itself, also of a motion");
   command->add_flag("--propagate,!--no-propagate", options->propagate,
                     "Video: label the frames between the labelled ones (default: yes)");
   command->add_option("--max-gap-s", options->max_gap_s, "Video: labels lead no farther, in s")
@@ -179,7 +232,8 @@ CLI::App* AddLift(CLI::App* app, Run* run) {
   command->add_flag("--overlay-video", options->overlay_video, "Video: write NAME.overlay.avi too");
   command->add_option("--truth", options->truth, "True joints of the frames: prints the error");
   command->add_option("--seed", options->seed, "Accepted by every command; lifting draws nothing");
-  command->callback([options] {
+  command->callback([options, command] {
+    options->has_fps = command->count("--fps") > 0;
     if (options->inputs.empty() && options->labels.empty())
       throw CLI::RequiredError("INPUT or --labels");
   });
