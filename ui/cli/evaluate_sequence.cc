@@ -17,8 +17,10 @@
 #include "lift/dictionary_file.h"
 #include "lift/eval/evaluate_sequence.h"
 #include "lift/eval/sequence_error.h"
+#include "lift/temporal/motion_codebook_file.h"
 #include "lift/temporal/motion_database.h"
 #include "lift/temporal/resample.h"
+#include "lift/train/train_codebook.h"
 #include "lift/train/train_dictionary.h"
 #include "src/input_error.h"
 #include "src/io/amc.h"
@@ -38,7 +40,7 @@ const std::string kFrameAlone = "each frame alone", kPoselift = "poselift";
 constexpr const char* kPlottedAngle = "left_knee.flexion";
 
 struct Options {
-  std::string mocap, dictionary, json, plots;
+  std::string mocap, dictionary, motion_model, json, plots;
   std::vector<std::string> train_subjects = {"01", "02", "03", "05", "14", "17", "29"};
   std::vector<std::string> trials = {"07_05", "09_05", "09_12", "16_03", "16_15",
                                      "16_22", "16_36", "49_02", "49_06"};
@@ -50,13 +52,13 @@ struct Options {
 // The subjects' motions; a trial's name begins with its subject's.
 std::vector<MotionSource> FindSources(const Options& options) {
   std::vector<std::string> subjects;
-  if (options.dictionary.empty()) subjects = options.train_subjects;
+  if (options.dictionary.empty() || options.motion_model.empty()) subjects = options.train_subjects;
   for (const std::string& trial : options.trials)
     subjects.push_back(trial.substr(0, trial.find('_')));
   return FindMotions(options.mocap, {.subjects = subjects});
 }
 
-Dictionary Learn(const std::vector<MotionSource>& sources, const Options& options) {
+Dictionary LearnDictionary(const std::vector<MotionSource>& sources, const Options& options) {
   if (!options.dictionary.empty()) return ReadDictionary(options.dictionary);
   const auto chosen = ChooseTrials(sources, options.train_subjects, options.trials);
   TrainingPoses poses;
@@ -67,6 +69,22 @@ Dictionary Learn(const std::vector<MotionSource>& sources, const Options& option
   Progress progress("train", poses.poses_m.cols(), "frames");
   TrainReport report;
   return TrainDictionary(poses, /*mirrored=*/true, {}, progress.Callback(), &report);
+}
+
+// With mirror images.
+MotionCodebook LearnMotion(const std::vector<MotionSource>& sources, const Skeleton& standard,
+                           const Options& options) {
+  if (!options.motion_model.empty()) return WithMirrored(ReadMotionCodebook(options.motion_model));
+  const auto chosen = ChooseTrials(sources, options.train_subjects, options.trials);
+  MotionCodebook segments;
+  {
+    Progress progress("read", static_cast<int64_t>(chosen.size()), "files");
+    segments =
+        SegmentsOf(LoadMotionDatabase(chosen, standard, {.mirrored = false}, progress.Callback()));
+  }
+  Progress progress("train", segments.NumSegments(), "segments");
+  CodebookReport report;
+  return WithMirrored(TrainCodebook(segments, {}, progress.Callback(), &report));
 }
 
 std::vector<SequenceTrial> LoadTrials(const std::vector<MotionSource>& sources,
@@ -88,8 +106,9 @@ std::vector<SequenceTrial> LoadTrials(const std::vector<MotionSource>& sources,
 }
 
 std::vector<NamedSequenceMethod> WantedMethods(const Dictionary& dictionary,
+                                               const MotionCodebook& codebook,
                                                const Options& options) {
-  std::vector<NamedSequenceMethod> methods = SequenceMethods(dictionary);
+  std::vector<NamedSequenceMethod> methods = SequenceMethods(dictionary, codebook);
   if (options.methods.empty()) return methods;
   for (const std::string& name : options.methods)
     if (std::none_of(methods.begin(), methods.end(),
@@ -161,9 +180,10 @@ void WritePlots(const SequenceReport& report, const std::vector<SequenceTrial>& 
 
 int Evaluate(const Options& options) {
   const auto sources = FindSources(options);
-  const Dictionary dictionary = Learn(sources, options);
+  const Dictionary dictionary = LearnDictionary(sources, options);
+  const MotionCodebook codebook = LearnMotion(sources, dictionary.skeleton, options);
   const auto trials = LoadTrials(sources, dictionary.skeleton, options);
-  const auto methods = WantedMethods(dictionary, options);
+  const auto methods = WantedMethods(dictionary, codebook, options);
   std::vector<SequenceEvaluation> rows;
   {
     Progress progress("lift");
@@ -173,11 +193,12 @@ int Evaluate(const Options& options) {
   size_t num_frames = 0;
   for (const SequenceTrial& trial : trials) num_frames += trial.own.frames.size();
   fmt::print(
-      "{} atoms; {} trials, {} frames at 30 Hz; body {:g} px high, {:g} % of the labels "
+      "{} atoms, {} segments; {} trials, {} frames at 30 Hz; body {:g} px high, {:g} % of the "
+      "labels "
       "missing, seed {}, {}; mean over the trials ± standard error\n",
-      dictionary.NumAtoms(), trials.size(), num_frames, options.evaluation.view.body_height_px,
-      100.0 * options.evaluation.view.missing_share, options.evaluation.seed,
-      options.evaluation.layout);
+      dictionary.NumAtoms(), codebook.NumSegments(), trials.size(), num_frames,
+      options.evaluation.view.body_height_px, 100.0 * options.evaluation.view.missing_share,
+      options.evaluation.seed, options.evaluation.layout);
   report.Print();
   if (!options.json.empty()) WriteJson(report, options, dictionary);
   if (!options.plots.empty()) WritePlots(report, trials, options.plots);
@@ -195,6 +216,8 @@ CLI::App* AddEvaluateSequence(CLI::App* app, Run* run) {
       "figures/");
   EvaluateSequenceOptions& evaluation = options->evaluation;
   command->add_option("--mocap", options->mocap, "Folder with .amc and .asf files")->required();
+  command->add_option("--motion-model", options->motion_model,
+                      "Use this motion codebook and learn none");
   command->add_option("--json", options->json, "Write the numbers there too");
   command->add_option("--plots", options->plots, "Write pictures (SVG) into this folder");
   command->add_option("--trials", options->trials, "Trials, or subjects, to lift")

@@ -11,10 +11,11 @@
 #include <utility>
 
 #include "lift/baselines/butterworth.h"
-#include "lift/baselines/interpolation.h"
 #include "lift/baselines/one_euro.h"
 #include "lift/baselines/savitzky_golay.h"
 #include "lift/lift_photo.h"
+#include "lift/lift_sequence.h"
+#include "lift/point_curves.h"
 #include "lift/rotation.h"
 #include "src/forward_kinematics.h"
 
@@ -38,31 +39,16 @@ std::vector<Pose3> LiftFrames(const PhotoLifter& lifter, const Sequence& sequenc
   return poses;
 }
 
-// The labels as curves, two channels for each landmark that maps to joints, gaps
-// filled with straight lines, low-pass filtered.
-Sequence FilteredLabels(const Sequence& sequence, double frame_time_s, double cutoff_hz) {
-  const Layout& layout = *FindLayout("body15");
-  const auto num_landmarks = static_cast<Eigen::Index>(layout.landmarks.size());
-  Eigen::MatrixXd curves_px = Eigen::MatrixXd::Constant(
-      2 * num_landmarks, static_cast<Eigen::Index>(sequence.size()), std::nan(""));
-  for (size_t t = 0; t < sequence.size(); ++t)
-    for (const ObservedPoint& point : sequence[t].points)
-      curves_px.col(static_cast<Eigen::Index>(t)).segment<2>(2 * layout.Find(point.name).value()) =
-          point.x.head<2>();
-  curves_px = ButterworthLowPass(FillGaps(curves_px, GapFill::kLinear).curves, 1.0 / frame_time_s,
-                                 {.cutoff_hz = cutoff_hz});
-  Sequence filtered;
-  for (Eigen::Index t = 0; t < curves_px.cols(); ++t) {
-    PersonLabels labels;
-    for (Eigen::Index i = 0; i < num_landmarks; ++i) {
-      const Eigen::Vector2d x_px = curves_px.col(t).segment<2>(2 * i);
-      if (x_px.allFinite())  // a landmark that was never seen
-        labels.landmarks.push_back(
-            {std::string(layout.landmarks[static_cast<size_t>(i)].name), x_px});
-    }
-    filtered.push_back(Observe(labels, layout));
-  }
-  return filtered;
+// The first pose of each frame of LiftSequence; as above where there is none.
+std::vector<Pose3> LiftTogether(const SequenceLifter& lifter, const Sequence& sequence,
+                                double frame_time_s) {
+  const LiftedSequence lifted = lifter.LiftSequence(sequence, frame_time_s);
+  std::vector<Pose3> poses;
+  for (const LiftResult& frame : lifted.frames)
+    poses.push_back(frame.IsUsable() ? frame.poses.front().joints_in_cam_m
+                    : poses.empty()  ? Pose3::Zero(3, kNumJoints)
+                                     : poses.back());
+  return poses;
 }
 
 // A filter of the joints' curves, each coordinate on its own.
@@ -104,8 +90,10 @@ SequenceFilter OneEuro(double min_cutoff_hz, double beta) {
 
 }  // namespace
 
-std::vector<NamedSequenceMethod> SequenceMethods(const Dictionary& dictionary) {
+std::vector<NamedSequenceMethod> SequenceMethods(const Dictionary& dictionary,
+                                                 const MotionCodebook& codebook) {
   const auto lifter = std::make_shared<PhotoLifter>(dictionary);
+  const auto together = std::make_shared<SequenceLifter>(*lifter, codebook);
   return {{"each frame alone",
            [lifter](const Sequence& sequence, double) { return LiftFrames(*lifter, sequence); },
            {Butterworth("Butterworth 1.5 Hz", 1.5), Butterworth("Butterworth 3 Hz", 3.0),
@@ -113,9 +101,15 @@ std::vector<NamedSequenceMethod> SequenceMethods(const Dictionary& dictionary) {
             OneEuro(1.0, 3.0), OneEuro(0.5, 1.0)}},
           {"labels at 4 Hz",
            [lifter](const Sequence& sequence, double frame_time_s) {
-             return LiftFrames(*lifter, FilteredLabels(sequence, frame_time_s, 4.0));
+             return LiftFrames(*lifter,
+                               SmoothPoints(sequence, frame_time_s, 4.0, /*max_gap_frames=*/1000));
            },
-           {Butterworth("labels at 4 Hz, poses at 3 Hz", 3.0)}}};
+           {Butterworth("labels at 4 Hz, poses at 3 Hz", 3.0)}},
+          {"poselift",
+           [lifter, together](const Sequence& sequence, double frame_time_s) {
+             return LiftTogether(*together, sequence, frame_time_s);
+           },
+           {}}};
 }
 
 }  // namespace poselift::cli

@@ -6,12 +6,14 @@
 
 #include "lift/dictionary.h"
 #include "lift/eval/evaluate_sequence.h"
+#include "lift/temporal/motion_codebook.h"
 
 namespace poselift::cli {
 
 // The methods that `evaluate sequence` compares, in the order of the table: every
-// frame lifted alone, then filters of its joints, or of the labels before it. The
-// dictionary must outlive them.
-std::vector<NamedSequenceMethod> SequenceMethods(const Dictionary& dictionary);
+// frame lifted alone, then filters of its joints, or of the labels before it, then
+// LiftSequence. Dictionary and codebook must outlive them.
+std::vector<NamedSequenceMethod> SequenceMethods(const Dictionary& dictionary,
+                                                 const MotionCodebook& codebook);
 
 }  // namespace poselift::cli
