@@ -17,18 +17,11 @@ namespace poselift {
 namespace {
 
 constexpr double kStartCutoff_hz = 3.0;
+// Lifted frames flip now and then: their noise has a heavy tail, which the median
+// would not see.
+constexpr double kNoiseQuantile = 0.9, kSigmasAtQuantile = 1.645;
 
 const Eigen::Quaterniond kCamFromLevel(0.0, 1.0, 0.0, 0.0);  // half a turn about x
-
-bool SameDofs(const Skeleton& a, const Skeleton& b) {
-  return std::equal(
-      a.bones.begin(), a.bones.end(), b.bones.begin(), b.bones.end(),
-      [](const Bone& x, const Bone& y) {
-        return x.name == y.name && x.rest_from_axis.isApprox(y.rest_from_axis, 1e-3) &&
-               std::equal(x.dofs.begin(), x.dofs.end(), y.dofs.begin(), y.dofs.end(),
-                          [](const Dof& d, const Dof& e) { return d.kind == e.kind; });
-      });
-}
 
 SkeletonPose Turned(SkeletonPose pose) {
   pose.world_from_root = kCamFromLevel * pose.world_from_root;
@@ -96,7 +89,7 @@ class ModelSmoother {
       : codebook_(std::move(codebook)), options_(options) {}
 
   Motion Smooth(const Motion& motion, int max_gap_frames) const {
-    if (!SameDofs(motion.skeleton, codebook_->skeleton))
+    if (!IsOnSkeletonOf(*codebook_, motion.skeleton))
       throw InputError(motion.skeleton.name,
                        "found a skeleton that is not the motion model's, wanted a motion that "
                        "poselift lifted; smooth others with --method butterworth");
@@ -153,10 +146,10 @@ class ModelSmoother {
 // Of the absolute third differences of one quantity.
 double NoiseOf(std::vector<double>* differences) {
   if (differences->empty()) return 0.0;
-  const auto middle = differences->begin() + std::ssize(*differences) / 2;
-  std::nth_element(differences->begin(), middle, differences->end());
-  constexpr double kSigmaByMedian = 1.4826;
-  return kSigmaByMedian * *middle / std::sqrt(20.0);
+  const auto place = differences->begin() +
+                     static_cast<std::ptrdiff_t>(kNoiseQuantile * (differences->size() - 1));
+  std::nth_element(differences->begin(), place, differences->end());
+  return *place / kSigmasAtQuantile / std::sqrt(20.0);
 }
 
 }  // namespace
@@ -170,6 +163,18 @@ std::string ModelSmootherOptions::Validate() const {
   if (!(least_noise > 0.0))
     return fmt::format("ModelSmootherOptions::least_noise = {}, wanted > 0", least_noise);
   return "";
+}
+
+bool IsOnSkeletonOf(const MotionCodebook& codebook, const Skeleton& skeleton) {
+  const Skeleton& a = codebook.skeleton;
+  const Skeleton& b = skeleton;
+  return std::equal(
+      a.bones.begin(), a.bones.end(), b.bones.begin(), b.bones.end(),
+      [](const Bone& x, const Bone& y) {
+        return x.name == y.name && x.rest_from_axis.isApprox(y.rest_from_axis, 1e-3) &&
+               std::equal(x.dofs.begin(), x.dofs.end(), y.dofs.begin(), y.dofs.end(),
+                          [](const Dof& d, const Dof& e) { return d.kind == e.kind; });
+      });
 }
 
 FeatureVector PoseNoise(const Motion& motion) {

@@ -36,11 +36,13 @@ struct ModelSmootherOptions {
 MotionSmoother SmootherByModel(std::shared_ptr<const MotionCodebook> codebook,
                                const ModelSmootherOptions& options = {});
 
+// Whether a motion on the skeleton can be smoothed so.
+bool IsOnSkeletonOf(const MotionCodebook& codebook, const Skeleton& skeleton);
+
 // Standard deviations of the rows of a pose's difference (MakePredictionCost) from
 // third differences over the frames, which hardly know motion but grow sqrt(20)
-// times the noise; by the median, so that single jumps do not count. The root's
-// place and turn have one each for all axes. Zero where there are no four known
-// frames in a row.
+// times the noise; by their 0.9 quantile. The root's place and turn have one each
+// for all axes. Zero where there are no four known frames in a row.
 FeatureVector PoseNoise(const Motion& motion);
 
 }  // namespace poselift

@@ -205,6 +205,8 @@ void AddMethodOptions(CLI::App* command, SmoothingOptions* options) {
                    "Of butterworth: faster movement is taken away [6, at most a quarter of the "
                    "frame rate]")
       ->check(IsNumber(1e-3, kMost));
+  command->add_option("--motion-model", options->motion_model,
+                      "Of motion-model: a codebook [the one that ships]");
   command
       ->add_option("--window-frames", options->savitzky_golay.window_frames,
                    "Of savitzky-golay: odd")

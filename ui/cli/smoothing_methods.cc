@@ -6,8 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <memory>
 
 #include "lift/baselines/butterworth.h"
+#include "lift/default_dictionary.h"
+#include "lift/model_smoother.h"
+#include "lift/temporal/motion_codebook_file.h"
 
 namespace poselift::cli {
 namespace {
@@ -52,12 +57,35 @@ Smoothing OneEuro(const Motion&, const SmoothingOptions& options) {
                       filter.min_cutoff_hz, filter.beta)};
 }
 
+std::shared_ptr<const MotionCodebook> Codebook(const SmoothingOptions& options) {
+  return std::make_shared<MotionCodebook>(WithMirrored(ReadMotionCodebook(
+      options.motion_model.empty() ? DefaultMotionModelPath()
+                                   : std::filesystem::path(options.motion_model))));
+}
+
+Smoothing ByModel(const std::shared_ptr<const MotionCodebook>& codebook) {
+  return {SmootherByModel(codebook),
+          fmt::format("motion model of {} segments, from all frames", codebook->NumSegments())};
+}
+
+// The model where the motion is on its skeleton.
+Smoothing Auto(const Motion& motion, const SmoothingOptions& options) {
+  const auto codebook = Codebook(options);
+  return IsOnSkeletonOf(*codebook, motion.skeleton) ? ByModel(codebook)
+                                                    : Butterworth(motion, options);
+}
+
 Smoothing FillAlone(GapFill fill, std::string summary) {
   const auto as_it_is = [](const Eigen::MatrixXd& curves, double) { return curves; };
   return {SmootherOfCurves(fill, as_it_is), std::move(summary)};
 }
 
 constexpr std::array kMethods = {
+    SmoothingMethod{"auto", "motion-model for poselift's own motions, butterworth for others",
+                    Auto},
+    SmoothingMethod{
+        "motion-model", "what similar motions do; poses.json or poselift's own .amc",
+        [](const Motion&, const SmoothingOptions& options) { return ByModel(Codebook(options)); }},
     SmoothingMethod{"butterworth", "low-pass filter forward and backward", Butterworth},
     SmoothingMethod{"savitzky-golay", "local polynomials", SavitzkyGolayFilter},
     SmoothingMethod{"one-euro", "online, lags little when fast", OneEuro},

@@ -66,7 +66,7 @@ TEST(Smooth, TakesTheJitterOutOfAMotionFile) {
   EXPECT_THAT(run.out, HasSubstr("cutoff 6 Hz"));
   const json report = Report();
   EXPECT_EQ(report["frames"], 90);
-  EXPECT_EQ(report["method"], "butterworth");
+  EXPECT_EQ(report["method"], "auto");
   EXPECT_LT(report["jitter_after_mm"].get<double>(),
             0.3 * report["jitter_before_mm"].get<double>());
   EXPECT_TRUE(report["filled"].empty());
