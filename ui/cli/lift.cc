@@ -21,6 +21,7 @@
 #include "src/io/angles_csv.h"
 #include "src/io/camera_yaml.h"
 #include "src/io/image.h"
+#include "src/io/labels.h"
 #include "src/io/motion_file.h"
 #include "src/io/poses_json.h"
 #include "ui/cli/command.h"
@@ -183,6 +184,7 @@ int Lift(const Options& options) {
       is_motion ? LiftMotion(lifter, inputs.labels, camera, options, progress.Callback())
                 : LiftLabels(lifter, inputs.labels, camera, progress.Callback());
   WriteResults(lifted, inputs.labels, dictionary.skeleton, is_motion, options);
+  if (!inputs.video.empty()) WriteLabels(inputs.labels, fs::path(options.out) / "labels.json");
   WriteAllPictures(lifted, inputs, camera, options);
   const int usable = Report(lifted);
   if (truth) PrintErrorAgainstTruth(lifted.poses, *truth);
@@ -198,7 +200,8 @@ CLI::App* AddLift(CLI::App* app, Run* run) {
       app->add_subcommand("lift", "From labelled pictures to 3D poses with joint angles");
   command->footer(
       "Writes poses.json, poses.bvh, poses.amc with poses.asf, angles.csv and, for each picture,\n"
-      "NAME.overlay.png and NAME.view.png, for a video NAME.strip.png.\n"
+      "NAME.overlay.png and NAME.view.png, for a video NAME.strip.png and the labels of all\n"
+      "frames, labels.json.\n"
       "Examples:\n  poselift lift skier.jpg --labels skier.coco.json --out out/\n"
       "  poselift lift walk.mp4 --labels walk.labels.json --out out/");
   command->add_option("INPUT", options->inputs,
