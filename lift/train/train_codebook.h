@@ -20,7 +20,7 @@ struct CodebookOptions {
   int iterations = 15;
   // Cells of fewer are dissolved: their members join the nearest of the others, so
   // that no segment of the codebook is one that was captured.
-  int least_members = 3;
+  int least_members = 2;
   std::uint64_t seed = 1;
 
   std::string Validate() const;
