@@ -12,7 +12,6 @@
 #include "lift/choose_alternatives.h"
 #include "lift/perspective.h"
 #include "lift/point_curves.h"
-#include "src/dof_angles.h"
 #include "src/forward_kinematics.h"
 #include "src/input_error.h"
 
@@ -39,20 +38,6 @@ std::vector<double> RunningMedian(const std::vector<double>& values, std::ptrdif
     medians.push_back(window[window.size() / 2]);
   }
   return medians;
-}
-
-// Of the angles that are the same rotation those nearest to rest, on which
-// branch the codebook has them.
-SkeletonPose OnRestBranch(const Skeleton& skeleton, SkeletonPose pose) {
-  Eigen::VectorXd nearest = Eigen::VectorXd::Zero(pose.dofs.size());
-  Eigen::Index first = 0;
-  for (const Bone& bone : skeleton.bones) {
-    FitDofAngles(RotationOfDofs(bone.dofs, pose.dofs.data() + first), bone.dofs,
-                 nearest.data() + first);
-    first += std::ssize(bone.dofs);
-  }
-  pose.dofs = nearest;
-  return pose;
 }
 
 // Frames whose lift failed take the result of the nearest one in time. False
@@ -237,7 +222,8 @@ std::vector<LiftedPose> SequenceLifter::Refine(const Run& run) const {
     frame.observation = run.seen[t].pinhole
                             ? AsWeakPerspective(run.seen[t], chosen.joints_in_cam_m, chosen.camera)
                             : run.seen[t];
-    frame.start = OnRestBranch(skeleton, chosen.pose);
+    frame.start = chosen.pose;
+    TakeAnglesNearestToRest(skeleton, &frame.start);
     frame.start.root_in_world_m = MeanShift_m(run.seen[t], chosen.joints_in_cam_m);
     frame.camera = chosen.camera;
     frame.camera.translation_px -=

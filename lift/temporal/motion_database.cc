@@ -42,18 +42,6 @@ constexpr RowGroup kRowGroups[] = {{0, kNumAngles},
                                    {feature::kVelocity, 2},
                                    {feature::kYawRate, 1}};
 
-// Of the angles that are the same rotation, those nearest to the rest pose.
-void TakeAnglesNearestToRest(const Skeleton& skeleton, SkeletonPose* pose) {
-  Eigen::VectorXd nearest = Eigen::VectorXd::Zero(pose->dofs.size());
-  Eigen::Index first_dof = 0;
-  for (const Bone& bone : skeleton.bones) {
-    const double* values = pose->dofs.data() + first_dof;
-    FitDofAngles(RotationOfDofs(bone.dofs, values), bone.dofs, nearest.data() + first_dof);
-    first_dof += static_cast<Eigen::Index>(bone.dofs.size());
-  }
-  pose->dofs = nearest;
-}
-
 // The motion cut where an angle jumps.
 std::vector<Motion> WithoutJumps(const Motion& motion) {
   std::vector<Motion> pieces;
@@ -82,6 +70,17 @@ bool IsAmong(const MotionSource& source, const std::vector<std::string>& names) 
 }
 
 }  // namespace
+
+void TakeAnglesNearestToRest(const Skeleton& skeleton, SkeletonPose* pose) {
+  Eigen::VectorXd nearest = Eigen::VectorXd::Zero(pose->dofs.size());
+  Eigen::Index first_dof = 0;
+  for (const Bone& bone : skeleton.bones) {
+    const double* values = pose->dofs.data() + first_dof;
+    FitDofAngles(RotationOfDofs(bone.dofs, values), bone.dofs, nearest.data() + first_dof);
+    first_dof += static_cast<Eigen::Index>(bone.dofs.size());
+  }
+  pose->dofs = nearest;
+}
 
 void MotionDatabase::Append(const std::string& name, const FeatureMatrix& trial_features) {
   trials.push_back({name, NumFrames(), static_cast<int>(trial_features.cols())});

@@ -64,6 +64,10 @@ FeatureVector RowWeights(const MotionDatabase& database);
 // trials. The price is a jump where a bone passes gimbal lock or half a turn.
 Motion OnStandardSkeleton(const Motion& motion, const Skeleton& standard, double frame_time_s);
 
+// Of the angles that are the same rotation those nearest to the rest pose: the
+// branch on which the database has them.
+void TakeAnglesNearestToRest(const Skeleton& skeleton, SkeletonPose* pose);
+
 // Of motions, those whose subject ("07") or trial ("07_05") is in `include`, all
 // when that is empty, and not in `exclude`. Throws InputError for a name that no
 // motion has.

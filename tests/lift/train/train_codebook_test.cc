@@ -94,7 +94,7 @@ TEST(TrainCodebook, MembersOfSmallCellsJoinTheNearest) {
   auto rng = TestRng();
   auto [means, segments] = Plant(3, 3 * 100 + 2, &rng);
   for (const int j : {300, 301}) {  // two strangers, nearest to the first cell
-    segments.segments.col(j) = means.segments.col(0).array() + 0.2f;
+    segments.segments.col(j) = means.segments.col(0).array() + 1.0f;
     segments.rates.col(j) = means.rates.col(0);
   }
   CodebookReport report;

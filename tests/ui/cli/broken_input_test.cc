@@ -183,7 +183,7 @@ TEST(BrokenInput, MotionCodebooksAreRefusedByInfo) {
       {{"truncated", whole.substr(0, whole.size() / 2), ": is cut short"},
        {"altered", altered, ": is altered"},
        {"newer version", newer, ": has format version 2"},
-       {"a dictionary's", Replaced(whole, "PLMOTN", "PLDICT"), ": is no motion codebook"}});
+       {"a dictionary's", Replaced(whole, "PLMOTN", "PLDICT"), ": is altered"}});
 }
 
 TEST(BrokenInput, PicturesAreRefusedByInfo) {

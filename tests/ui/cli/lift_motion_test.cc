@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+//
+// The labels of the sample walk through the program, as a user would: a real walk,
+// so what is tested is what one sees of it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "src/io/labels.h"
+#include "src/io/motion_file.h"
+#include "tests/support/run_program.h"
+#include "tests/support/support.h"
+
+namespace poselift {
+namespace {
+
+using testing::RunProgram;
+using testing::ScratchDir;
+using Json = nlohmann::json;
+
+const std::filesystem::path kWalk =
+    std::filesystem::path(POSELIFT_SOURCE_DIR) / "samples/walk/walk-side.every-frame.labels.json";
+
+// `count` frames of the walk from its 40th on, in this test's folder.
+Labels PartOfWalk(size_t count) {
+  Labels labels = ReadLabels(kWalk, "auto");
+  labels.frames = {labels.frames.begin() + 40,
+                   labels.frames.begin() + 40 + static_cast<std::ptrdiff_t>(count)};
+  return labels;
+}
+
+Json ReadJson(const std::string& path) { return Json::parse(std::ifstream(ScratchDir() / path)); }
+
+std::vector<double> Angles(const Json& poses, const char* name) {
+  std::vector<double> angles_deg;
+  for (const Json& frame : poses["frames"])
+    angles_deg.push_back(frame["people"][0]["angles_deg"][name].get<double>());
+  return angles_deg;
+}
+
+TEST(LiftMotion, KneesBendOneAfterTheOtherAndTheRightWay) {
+  ASSERT_EQ(RunProgram("lift --labels " + kWalk.string() + " --out out").code, 0);
+  const Motion motion = ReadMotion(ScratchDir() / "out/poses.bvh");
+  EXPECT_NEAR(motion.frame_time_s, 1.0 / 30.0, 1e-4);
+  Json poses = ReadJson("out/poses.json");
+  // Frames in which she is in the picture as a whole.
+  auto& frames = poses["frames"];
+  frames.erase(frames.begin() + 150, frames.end());
+  frames.erase(frames.begin(), frames.begin() + 30);
+  const auto left = Angles(poses, "left_knee.flexion"), right = Angles(poses, "right_knee.flexion");
+  int swings = 0;
+  bool was_left = left[0] > right[0];
+  for (size_t t = 0; t < left.size(); ++t) {
+    EXPECT_GT(std::min(left[t], right[t]), -5.0);
+    EXPECT_LT(std::max(left[t], right[t]), 90.0);
+    EXPECT_LT(std::abs(left[t] - left[t == 0 ? 0 : t - 1]), 12.0) << t;  // degrees a frame
+    const bool is_clear = std::abs(left[t] - right[t]) > 25.0;
+    if (!is_clear || was_left == (left[t] > right[t])) continue;
+    was_left = !was_left;
+    ++swings;
+  }
+  EXPECT_GE(swings, 5);  // four seconds of walking
+  EXPECT_LE(swings, 8);
+}
+
+TEST(LiftMotion, FillsAndMarksFramesWithoutLabels) {
+  Labels labels = PartOfWalk(16);
+  for (const size_t t : {6, 7, 8}) labels.frames[t].people.clear();
+  WriteLabels(labels, ScratchDir() / "gap.labels.json");
+  const auto run = RunProgram("lift --labels gap.labels.json --out out");
+  EXPECT_EQ(run.code, 0);
+  EXPECT_NE(run.out.find("3 of them from the frames around"), std::string::npos) << run.out;
+  const Json poses = ReadJson("out/poses.json");
+  for (size_t t = 0; t < 16; ++t)
+    EXPECT_EQ(poses["frames"][t]["people"][0]["status"], t >= 6 && t <= 8 ? "filled" : "ok") << t;
+  EXPECT_EQ(ReadMotion(ScratchDir() / "out/poses.bvh").frames.size(), 16U);
+}
+
+TEST(LiftMotion, FramesAloneAreNotFilled) {
+  Labels labels = PartOfWalk(6);
+  labels.frames[3].people.clear();
+  WriteLabels(labels, ScratchDir() / "gap.labels.json");
+  EXPECT_EQ(RunProgram("lift --labels gap.labels.json --frames-alone --out out").code, 0);
+  EXPECT_TRUE(ReadJson("out/poses.json")["frames"][3]["people"].empty());
+}
+
+TEST(LiftMotion, TimesComeFromTheRateWhereThereAreNone) {
+  Labels labels = PartOfWalk(5);
+  for (FrameLabels& frame : labels.frames) frame.time_s.reset();
+  WriteLabels(labels, ScratchDir() / "plain.labels.json");
+  EXPECT_EQ(RunProgram("lift --labels plain.labels.json --fps 30 --out timed").code, 0);
+  EXPECT_NEAR(ReadJson("timed/poses.json")["frames"][3]["time_s"].get<double>(), 0.1, 1e-9);
+  EXPECT_EQ(RunProgram("lift --labels plain.labels.json --out plain").code, 0);
+  EXPECT_FALSE(ReadJson("plain/poses.json")["frames"][3].contains("time_s"));
+}
+
+TEST(LiftMotion, RefusesAMotionModelThatIsNone) {
+  WriteLabels(PartOfWalk(5), ScratchDir() / "walk.labels.json");
+  testing::WriteScratch("not.plmotion", "something else");
+  const auto run =
+      RunProgram("lift --labels walk.labels.json --motion-model not.plmotion --out out");
+  EXPECT_EQ(run.code, 3);
+  EXPECT_NE(run.err.find("not.plmotion"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace poselift
