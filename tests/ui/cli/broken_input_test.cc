@@ -178,12 +178,11 @@ TEST(BrokenInput, MotionCodebooksAreRefusedByInfo) {
   std::string altered = whole, newer = whole;
   altered[whole.size() / 2] ^= 1;
   newer[8] = 2;  // the version
-  ExpectRefusals(
-      "m.plmotion", whole, {"info {}"},
-      {{"truncated", whole.substr(0, whole.size() / 2), ": is cut short"},
-       {"altered", altered, ": is altered"},
-       {"newer version", newer, ": has format version 2"},
-       {"a dictionary's", Replaced(whole, "PLMOTN", "PLDICT"), ": is altered"}});
+  ExpectRefusals("m.plmotion", whole, {"info {}"},
+                 {{"truncated", whole.substr(0, whole.size() / 2), ": is cut short"},
+                  {"altered", altered, ": is altered"},
+                  {"newer version", newer, ": has format version 2"},
+                  {"a dictionary's", Replaced(whole, "PLMOTN", "PLDICT"), ": is altered"}});
 }
 
 TEST(BrokenInput, PicturesAreRefusedByInfo) {
