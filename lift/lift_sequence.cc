@@ -68,11 +68,16 @@ Eigen::Matrix3Xd PlacedPoints_m(const std::vector<ObservedPoint>& points, const 
     const auto found =
         std::find_if(seen.points.begin(), seen.points.end(),
                      [&](const ObservedPoint& now) { return now.name == point.name; });
-    Eigen::Vector2d x_px =
-        lifted.camera.scale_px_per_m * x_in_cam_m.head<2>() + lifted.camera.translation_px;
-    if (found != seen.points.end() && found->kind == ObservedPoint::Kind::k2D)
-      x_px = found->x.head<2>();
-    placed_m.col(i) << x_px.x() / scale_px_per_m, -x_px.y() / scale_px_per_m, -x_in_cam_m.z();
+    Eigen::Vector2d x_m = x_in_cam_m.head<2>();
+    if (scale_px_per_m > 0.0) {  // there are 2D points
+      const bool is_seen = found != seen.points.end() && found->kind == ObservedPoint::Kind::k2D;
+      const Eigen::Vector2d x_px =
+          is_seen
+              ? Eigen::Vector2d(found->x.head<2>())
+              : Eigen::Vector2d(lifted.camera.scale_px_per_m * x_m + lifted.camera.translation_px);
+      x_m = x_px / scale_px_per_m;
+    }
+    placed_m.col(i) << x_m.x(), -x_m.y(), -x_in_cam_m.z();
   }
   return placed_m;
 }

@@ -107,6 +107,16 @@ TEST_F(LiftSequenceTest, ALongGapStaysOpen) {
   EXPECT_FALSE(lifted.frames[7].message.empty());
 }
 
+TEST_F(LiftSequenceTest, PointsInSpaceWillDo) {
+  See(10, 0.0);
+  for (size_t t = 0; t < frames_.size(); ++t) {
+    frames_[t] = ObservePose(truth_[t], 0.01);
+    std::erase_if(frames_[t].points, [](const ObservedPoint& p) { return p.name.size() % 2 == 0; });
+  }
+  const SequenceLifter lifter(lifter_, codebook_);
+  EXPECT_LT(Error_mm(lifter.LiftSequence(frames_, kFrameTime_s)), 25.0);
+}
+
 TEST_F(LiftSequenceTest, NothingSeenIsNothingLifted) {
   const SequenceLifter lifter(lifter_, codebook_);
   EXPECT_TRUE(lifter.LiftSequence({}, kFrameTime_s).frames.empty());
