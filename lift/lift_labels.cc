@@ -12,6 +12,7 @@
 #include "src/forward_kinematics.h"
 #include "src/input_error.h"
 #include "src/joint_angles.h"
+#include "src/level_camera.h"
 
 namespace poselift {
 namespace {
@@ -19,9 +20,8 @@ namespace {
 // World of a level camera: y up, facing the camera.
 SkeletonPose InWorld(const SkeletonPose& pose_in_cam) {
   SkeletonPose pose = pose_in_cam;
-  const Eigen::Quaterniond world_from_cam(0.0, 1.0, 0.0, 0.0);  // half a turn about x
-  pose.world_from_root = world_from_cam * pose_in_cam.world_from_root;
-  pose.root_in_world_m = world_from_cam * pose_in_cam.root_in_world_m;
+  pose.world_from_root = kLevelFromCam * pose_in_cam.world_from_root;
+  pose.root_in_world_m = kLevelFromCam * pose_in_cam.root_in_world_m;
   return pose;
 }
 

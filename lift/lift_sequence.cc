@@ -152,7 +152,11 @@ LiftedSequence SequenceLifter::LiftSequence(const std::vector<Observation>& fram
       return std::vector<Observation>(all.begin() + span.first, all.begin() + span.last + 1);
     };
     Run run{frame_time_s, part(frames), part(smooth)};
-    if (!LiftEach(&run, progress)) continue;
+    const auto so_far = [&](double share) {
+      if (progress)
+        progress((span.first + share * span.NumFrames()) / static_cast<double>(frames.size()));
+    };
+    if (!LiftEach(&run, so_far)) continue;
     FindLocalPoses(&run);
     std::vector<LiftedPose> together = Refine(run);
     for (size_t i = 0; i < together.size(); ++i) {
@@ -176,7 +180,7 @@ bool SequenceLifter::LiftEach(Run* run, const ProgressFn& progress) const {
   for (size_t t = 0; t < num_frames; ++t) {
     run->alone[t] = lifter_.LiftPhoto(run->smooth[t]);
     const size_t now = ++done;
-    if (progress) progress(static_cast<double>(now) / static_cast<double>(num_frames));
+    progress(static_cast<double>(now) / static_cast<double>(num_frames));
   }
   if (!BorrowMissing(&run->alone)) return false;
   const std::vector<int> chosen = ChooseAlternatives(run->alone, run->frame_time_s);

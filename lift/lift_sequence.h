@@ -35,8 +35,8 @@ struct LiftedSequence {
 };
 
 // From the observed points of one person in the frames of a video to poses that
-// are one motion. The camera is level and stands still, or nearly so; between it
-// and weak perspective the rest is as in PhotoLifter.
+// are one motion. The camera is level and stands still, or nearly so; in true
+// perspective where it is known, else in weak perspective.
 class SequenceLifter {
  public:
   // The lifter and the codebook must outlive this. Throws InputError for options

@@ -12,6 +12,7 @@
 #include "lift/baselines/butterworth.h"
 #include "src/forward_kinematics.h"
 #include "src/input_error.h"
+#include "src/level_camera.h"
 
 namespace poselift {
 namespace {
@@ -21,11 +22,10 @@ constexpr double kStartCutoff_hz = 3.0;
 // would not see.
 constexpr double kNoiseQuantile = 0.9, kSigmasAtQuantile = 1.645;
 
-const Eigen::Quaterniond kCamFromLevel(0.0, 1.0, 0.0, 0.0);  // half a turn about x
-
+// Between world and cam, either way.
 SkeletonPose Turned(SkeletonPose pose) {
-  pose.world_from_root = kCamFromLevel * pose.world_from_root;
-  pose.root_in_world_m = kCamFromLevel * pose.root_in_world_m;
+  pose.world_from_root = kLevelFromCam * pose.world_from_root;
+  pose.root_in_world_m = kLevelFromCam * pose.root_in_world_m;
   return pose;
 }
 

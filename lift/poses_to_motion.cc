@@ -14,6 +14,7 @@
 #include "src/forward_kinematics.h"
 #include "src/input_error.h"
 #include "src/joint_angles.h"
+#include "src/level_camera.h"
 
 namespace poselift {
 namespace {
@@ -22,7 +23,6 @@ constexpr double kFloorQuantile = 0.05;
 
 // Half a turn about x: y up, z towards the camera. Its own inverse.
 Eigen::Vector3d LevelFromCam(const Eigen::Vector3d& x) { return {x.x(), -x.y(), -x.z()}; }
-const Eigen::Quaterniond kLevelFromCam(0.0, 1.0, 0.0, 0.0);
 
 double Median(std::vector<double> values) {
   if (values.empty()) return kUnknown;

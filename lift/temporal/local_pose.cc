@@ -8,6 +8,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "src/level_camera.h"
+
 namespace poselift {
 namespace {
 
@@ -15,15 +17,12 @@ constexpr int kNumPoseRows = kNumAngles + 3;  // angles and a rotation vector
 using PoseRows = Eigen::Matrix<double, kNumPoseRows, 1>;
 using Eigen::Quaterniond;
 
-// Half a turn about x: a level camera's y looks down, its z away.
-const Quaterniond kCamFromLevel(0.0, 1.0, 0.0, 0.0);
-
 SkeletonPose MiddlePoseInCam(const MotionCodebook& codebook, const SegmentView& view) {
   SkeletonPose pose = PoseOfSample(codebook.segments.col(view.segment)
                                        .segment<kNumFeatures>(kMiddleSample * kNumFeatures)
                                        .cast<double>());
   const Quaterniond turned(Eigen::AngleAxisd(view.psi_rad, Eigen::Vector3d::UnitY()));
-  pose.world_from_root = kCamFromLevel * turned * pose.world_from_root;
+  pose.world_from_root = kLevelFromCam * turned * pose.world_from_root;
   pose.root_in_world_m.setZero();
   return pose;
 }

@@ -8,10 +8,10 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
 
+#include "src/draw/xml_text.h"
 #include "src/input_error.h"
 
 namespace poselift {
@@ -28,29 +28,6 @@ constexpr double kSigmasOfBand = 2.0;
 template <typename... Args>
 void Put(std::string* svg, fmt::format_string<Args...> format, Args&&... args) {
   fmt::format_to(std::back_inserter(*svg), format, std::forward<Args>(args)...);
-}
-
-// Text that XML takes: its own characters written out, control characters and
-// what is no UTF-8 replaced.
-std::string Escaped(std::string_view text) {
-  using Json = nlohmann::json;
-  const std::string utf8 =
-      Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
-          .get<std::string>();
-  std::string escaped;
-  for (const char c : utf8) {
-    if (c == '&')
-      escaped += "&amp;";
-    else if (c == '<')
-      escaped += "&lt;";
-    else if (c == '>')
-      escaped += "&gt;";
-    else if (c == '"')
-      escaped += "&quot;";
-    else
-      escaped += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  }
-  return escaped;
 }
 
 // About; the font is the viewer's.
@@ -125,7 +102,7 @@ class Drawing {
         "viewBox=\"0 0 {0:g} {1:g}\" font-family=\"sans-serif\" font-size=\"{2}\">\n"
         "<title>{3}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
         "<text x=\"{4:g}\" y=\"26\" font-size=\"17\" text-anchor=\"middle\">{3}</text>\n",
-        plot_.width_px, bottom_px, kFont_px, Escaped(plot_.title), plot_.width_px / 2);
+        plot_.width_px, bottom_px, kFont_px, EscapedXml(plot_.title), plot_.width_px / 2);
     return svg + body + "</svg>\n";
   }
 
@@ -194,7 +171,7 @@ class Drawing {
       for (const TimeSpan& span : strip.spans)
         DrawSpan(span, top_px + 3, kStrip_px - 6, kStripColor, svg);
       Put(svg, "<text x=\"{:g}\" y=\"{:g}\" text-anchor=\"end\" font-size=\"10\">{}</text>\n",
-          kLeft_px - 5, top_px + kStrip_px - 5, Escaped(strip.name));
+          kLeft_px - 5, top_px + kStrip_px - 5, EscapedXml(strip.name));
       top_px += kStrip_px;
     }
   }
@@ -253,7 +230,7 @@ class Drawing {
         y_px += kLegendRow_px;
       }
       Put(svg, "<text x=\"{:.2f}\" y=\"{:g}\">{}</text>\n", x_px + kSample_px + 6, y_px + 4.5,
-          Escaped(name));
+          EscapedXml(name));
       const double at_px = x_px;
       x_px += width_px;
       return at_px;

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "src/draw/xml_text.h"
+
 namespace poselift {
 namespace {
 
@@ -21,24 +23,9 @@ constexpr double kGroupGap = 0.25;  // of a group's width
 constexpr std::array<const char*, 8> kColors = {"#999999", "#e69f00", "#56b4e9", "#009e73",
                                                 "#d55e00", "#0072b2", "#cc79a7", "#f0e442"};
 
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&')
-      escaped += "&amp;";
-    else if (c == '<')
-      escaped += "&lt;";
-    else if (c == '>')
-      escaped += "&gt;";
-    else
-      escaped += c;
-  }
-  return escaped;
-}
-
 std::string Text(double x, double y, const char* anchor, const std::string& text) {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor,
-                     Escaped(text));
+                     EscapedXml(text));
 }
 
 // 1, 2 or 5 times a power of ten, four to ten of which reach the top.

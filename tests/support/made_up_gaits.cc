@@ -54,7 +54,8 @@ std::vector<TargetPoint> ObserveHandAndFoot(const Motion& motion, size_t frame) 
   return observed;
 }
 
-void ExpectToMoveAlong(const Motion& motion, MotionMethod* here, MotionMethod* there) {
+void ExpectToMoveAlong(const Motion& motion, MotionMethod* here, MotionMethod* there,
+                       double tolerance) {
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(1.1, Eigen::Vector3d::UnitY()));
   const Eigen::Vector3d shift_m(3.0, 0.0, -2.0);
   Motion moved = motion;
@@ -67,8 +68,8 @@ void ExpectToMoveAlong(const Motion& motion, MotionMethod* here, MotionMethod* t
   for (size_t t = kNumFirst; t < motion.frames.size(); ++t) {
     const SkeletonPose a = here->Next(ObserveHandAndFoot(motion, t));
     const SkeletonPose b = there->Next(ObserveHandAndFoot(moved, t));
-    EXPECT_TRUE(MatrixNear(a.dofs, b.dofs, 1e-4));
-    EXPECT_TRUE(MatrixNear(turn * a.root_in_world_m + shift_m, b.root_in_world_m, 1e-4));
+    EXPECT_TRUE(MatrixNear(a.dofs, b.dofs, tolerance));
+    EXPECT_TRUE(MatrixNear(turn * a.root_in_world_m + shift_m, b.root_in_world_m, tolerance));
   }
 }
 

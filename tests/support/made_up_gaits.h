@@ -31,6 +31,7 @@ std::vector<TargetPoint> ObserveHandAndFoot(const Motion& motion, size_t frame);
 
 // Fails unless what `there` makes of the motion moved over the floor and turned
 // about the vertical is what `here` makes of it, moved along.
-void ExpectToMoveAlong(const Motion& motion, MotionMethod* here, MotionMethod* there);
+void ExpectToMoveAlong(const Motion& motion, MotionMethod* here, MotionMethod* there,
+                       double tolerance = 1e-4);
 
 }  // namespace poselift::testing

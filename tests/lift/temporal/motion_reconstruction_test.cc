@@ -13,47 +13,14 @@
 #include "lift/baselines/frame_ik.h"
 #include "lift/eval/evaluate_motion.h"
 #include "src/input_error.h"
-#include "tests/support/cmu_like_skeleton.h"
-#include "tests/support/planted_pose.h"
-#include "tests/support/support.h"
+#include "tests/support/made_up_gaits.h"
 
 namespace poselift {
 namespace {
 
-using testing::MatrixNear;
-using testing::RandomMatrix;
-using testing::TestRng;
-using testing::TrimmedCmuLikeSkeleton;
-
 constexpr double kFrameTime_s = 1.0 / 60.0;
 
-struct World {
-  World() : rng(TestRng()), mixture(0.15 * RandomMatrix(kNumAngles, 4, &rng)) {
-    database.skeleton = TrimmedCmuLikeSkeleton();
-    database.frame_time_s = kFrameTime_s;
-    for (int i = 0; i < 12; ++i) {
-      const double share = (i + 0.5) / 12;
-      database.Append("gait", MotionFeatures(Gait(120, share)));
-    }
-    weights = RowWeights(database);
-  }
-
-  // share, 0 ... 1: which gait of the kind.
-  Motion Gait(int num_frames, double share) const {
-    Motion motion{TrimmedCmuLikeSkeleton(), kFrameTime_s, {}};
-    for (int t = 0; t < num_frames; ++t) {
-      const double phase = 6.0 * t * kFrameTime_s + 6.0 * share;
-      const Eigen::Vector4d waves(std::sin(phase), std::cos(phase), std::sin(2 * phase) * share,
-                                  share);
-      SkeletonPose pose = SkeletonPose::Rest(motion.skeleton);
-      pose.dofs += mixture * waves;
-      pose.root_in_world_m << 0.0, 0.9 + 0.03 * std::sin(2 * phase), 1.2 * t * kFrameTime_s;
-      pose.world_from_root = Eigen::AngleAxisd(0.3 * std::sin(phase), Eigen::Vector3d::UnitY());
-      motion.frames.push_back(pose);
-    }
-    return motion;
-  }
-
+struct World : testing::MadeUpGaits {
   std::vector<MotionEvaluation> Evaluate(const NamedMotionMethod& method) const {
     EvaluateMotionOptions options;
     options.control_points = {PaperControlPoints()[2]};
@@ -65,10 +32,8 @@ struct World {
             [&] { return std::make_unique<MotionReconstruction>(database, search); }};
   }
 
-  std::mt19937_64 rng;
-  Eigen::MatrixXd mixture;
-  MotionDatabase database;
-  FeatureVector weights;
+  const MotionDatabase database = Database(12, 120);
+  const FeatureVector weights = RowWeights(database);
 };
 
 // Says what it is told.
@@ -127,29 +92,8 @@ TEST(MotionReconstruction, GivesTheSameEveryTime) {
 TEST(MotionReconstruction, DoesNotDependOnPlaceAndHeading) {
   const World world;
   const SegmentSearch search(world.database, world.weights, {.num_nearest = 100});
-  const Motion motion = world.Gait(12, 0.3);
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(1.1, Eigen::Vector3d::UnitY()));
-  const Eigen::Vector3d shift_m(3.0, 0.0, -2.0);
-  Motion moved = motion;
-  for (SkeletonPose& pose : moved.frames) {
-    pose.world_from_root = turn * pose.world_from_root;
-    pose.root_in_world_m = turn * pose.root_in_world_m + shift_m;
-  }
-  MotionReconstruction here(world.database, search);
-  MotionReconstruction there(world.database, search);
-  here.Begin({motion.frames.begin(), motion.frames.begin() + 4});
-  there.Begin({moved.frames.begin(), moved.frames.begin() + 4});
-  for (size_t t = 4; t < motion.frames.size(); ++t) {
-    const Pose3 joints_m = JointPositions(motion.skeleton, motion.frames[t]);
-    std::vector<TargetPoint> observed;
-    for (int j : {joint::kLeftHand, joint::kRightAnkle})
-      observed.push_back({{{j, 1.0}}, joints_m.col(j), 200.0});
-    std::vector<TargetPoint> observed_there = observed;
-    for (TargetPoint& point : observed_there) point.x = turn * point.x + shift_m;
-    const SkeletonPose a = here.Next(observed), b = there.Next(observed_there);
-    EXPECT_TRUE(MatrixNear(a.dofs, b.dofs, 1e-4));
-    EXPECT_TRUE(MatrixNear(turn * a.root_in_world_m + shift_m, b.root_in_world_m, 1e-4));
-  }
+  MotionReconstruction here(world.database, search), there(world.database, search);
+  testing::ExpectToMoveAlong(world.Gait(12, 0.3), &here, &there);
 }
 
 TEST(MotionReconstruction, GoesOnWithoutObservations) {

@@ -13,45 +13,15 @@
 #include "lift/baselines/frame_ik.h"
 #include "src/forward_kinematics.h"
 #include "src/input_error.h"
-#include "tests/support/cmu_like_skeleton.h"
-#include "tests/support/planted_pose.h"
-#include "tests/support/support.h"
+#include "tests/support/made_up_gaits.h"
 
 namespace poselift {
 namespace {
 
-using testing::MatrixNear;
-using testing::RandomMatrix;
-using testing::TestRng;
-using testing::TrimmedCmuLikeSkeleton;
-
 constexpr double kFrameTime_s = 1.0 / 60.0;
 
-struct World {
-  World() : rng(TestRng()), mixture(0.15 * RandomMatrix(kNumAngles, 4, &rng)) {
-    database.skeleton = TrimmedCmuLikeSkeleton();
-    database.frame_time_s = kFrameTime_s;
-    for (int i = 0; i < 12; ++i) database.Append("gait", MotionFeatures(Gait(160, (i + 0.5) / 12)));
-  }
-
-  // share, 0 ... 1: which gait of the kind.
-  Motion Gait(int num_frames, double share) const {
-    Motion motion{TrimmedCmuLikeSkeleton(), kFrameTime_s, {}};
-    for (int t = 0; t < num_frames; ++t) {
-      const double phase = 6.0 * t * kFrameTime_s + 6.0 * share;
-      SkeletonPose pose = SkeletonPose::Rest(motion.skeleton);
-      pose.dofs += mixture * Eigen::Vector4d(std::sin(phase), std::cos(phase),
-                                             std::sin(2 * phase) * share, share);
-      pose.root_in_world_m << 0.0, 0.9 + 0.03 * std::sin(2 * phase), 1.2 * t * kFrameTime_s;
-      pose.world_from_root = Eigen::AngleAxisd(0.3 * std::sin(phase), Eigen::Vector3d::UnitY());
-      motion.frames.push_back(pose);
-    }
-    return motion;
-  }
-
-  std::mt19937_64 rng;
-  Eigen::MatrixXd mixture;
-  MotionDatabase database;
+struct World : testing::MadeUpGaits {
+  const MotionDatabase database = Database(12, 160);
 };
 
 using Joints = std::vector<int>;
@@ -128,22 +98,8 @@ TEST(PathReconstruction, GivesTheSameEveryTime) {
 TEST(PathReconstruction, DoesNotDependOnPlaceAndHeading) {
   const World world;
   const PathSearch search(world.database);
-  const Motion motion = world.Gait(12, 0.3);
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(1.1, Eigen::Vector3d::UnitY()));
-  const Eigen::Vector3d shift_m(3.0, 0.0, -2.0);
-  Motion moved = motion;
-  for (SkeletonPose& pose : moved.frames) {
-    pose.world_from_root = turn * pose.world_from_root;
-    pose.root_in_world_m = turn * pose.root_in_world_m + shift_m;
-  }
   PathReconstruction here(world.database, search), there(world.database, search);
-  here.Begin(First4(motion));
-  there.Begin(First4(moved));
-  for (size_t t = 4; t < motion.frames.size(); ++t) {
-    const SkeletonPose a = here.Next(Observe(motion, t)), b = there.Next(Observe(moved, t));
-    EXPECT_TRUE(MatrixNear(a.dofs, b.dofs, 1e-3));
-    EXPECT_TRUE(MatrixNear(turn * a.root_in_world_m + shift_m, b.root_in_world_m, 1e-3));
-  }
+  testing::ExpectToMoveAlong(world.Gait(12, 0.3), &here, &there, 1e-3);
 }
 
 TEST(PathReconstruction, GoesOnWithoutObservations) {
