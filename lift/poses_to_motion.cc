@@ -8,21 +8,17 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "lift/ik/inverse_kinematics.h"
+#include "lift/person_ik.h"
+#include "lift/pose_to_person.h"
 #include "lift/temporal/frame_grid.h"
 #include "lift/temporal/resample.h"
 #include "src/forward_kinematics.h"
 #include "src/input_error.h"
-#include "src/joint_angles.h"
-#include "src/level_camera.h"
 
 namespace poselift {
 namespace {
 
 constexpr double kFloorQuantile = 0.05;
-
-// Half a turn about x: y up, z towards the camera. Its own inverse.
-Eigen::Vector3d LevelFromCam(const Eigen::Vector3d& x) { return {x.x(), -x.y(), -x.z()}; }
 
 double Median(std::vector<double> values) {
   if (values.empty()) return kUnknown;
@@ -93,37 +89,18 @@ CameraTrack FindCamera(const std::vector<const PersonPose*>& people) {
   return camera;
 }
 
-// Zero where nobody knows: a person in space without any picture.
-Eigen::Vector3d PelvisInCam_m(const PersonPose& person, const CameraTrack& camera) {
-  if (camera.has_depth) return person.pelvis_in_cam_m;
-  const Eigen::Vector2d in_plane_m =
-      (person.translation_px - camera.centre_px) / person.scale_px_per_m;
-  if (!in_plane_m.allFinite()) return Eigen::Vector3d::Zero();
-  return {in_plane_m.x(), in_plane_m.y(), 0.0};
-}
-
 // On level axes, the camera at the origin; unknown where there is no pose.
 std::vector<SkeletonPose> SolveFrames(const std::vector<const PersonPose*>& people,
                                       const Skeleton& skeleton, const ProgressFn& progress,
                                       PosesMotion* result) {
-  const InverseKinematics ik(skeleton);
+  PersonIk ik(skeleton);
   std::vector<SkeletonPose> poses(people.size(), UnknownPose(skeleton));
-  IkHints hints;
   for (size_t f = 0; f < people.size(); ++f) {
     if (progress) progress(static_cast<double>(f) / static_cast<double>(people.size()));
-    if (!people[f]) continue;
-    Pose3 target_m = people[f]->joints_in_cam_m;
-    for (int j = 0; j < kNumJoints; ++j) target_m.col(j) = LevelFromCam(target_m.col(j));
-    const IkResult solved = ik.Solve(target_m, hints);
-    if (!IsUsable(solved.status)) {
-      ++result->num_ik_failures;
-      continue;
-    }
-    result->worst_ik_rms_m = std::max(result->worst_ik_rms_m, solved.rms_m);
-    hints.start = solved.pose;
-    poses[f] = solved.pose;
-    poses[f].root_in_world_m += LevelFromCam(PelvisInCam_m(*people[f], result->camera));
+    if (people[f]) poses[f] = ik.Solve(*people[f], result->camera);
   }
+  result->worst_ik_rms_m = ik.worst_rms_m();
+  result->num_ik_failures = ik.num_failures();
   return poses;
 }
 
@@ -189,17 +166,6 @@ void StandOnFloor(PosesMotion* result) {
   result->camera.world_in_level_cam_m = origin_m;
 }
 
-void SetPlaceInPicture(const CameraTrack& camera, size_t frame,
-                       const Eigen::Vector3d& pelvis_in_cam_m, PersonPose* person) {
-  if (camera.has_depth) {
-    person->pelvis_in_cam_m = pelvis_in_cam_m;
-    person->scale_px_per_m = camera.focal_px / pelvis_in_cam_m.z();
-  } else if (frame < camera.scale_px_per_m.size()) {
-    person->scale_px_per_m = camera.scale_px_per_m[frame];
-  }
-  person->translation_px = camera.centre_px + person->scale_px_per_m * pelvis_in_cam_m.head<2>();
-}
-
 }  // namespace
 
 PosesMotion PosesToMotion(const Poses& poses, const Skeleton& skeleton,
@@ -234,30 +200,22 @@ Poses MotionToPoses(const Motion& motion, const PosesMotion& source,
                     const std::vector<std::string>& statuses) {
   if (statuses.size() != motion.frames.size())
     throw std::invalid_argument("MotionToPoses: a status for each frame is wanted");
-  const Articulation body(motion.skeleton);
-  const Eigen::MatrixXd angles_deg = ReadJointAnglesDeg(motion);
+  PoseToPerson to_person(motion.skeleton, source.camera);
   Poses poses;
   for (size_t f = 0; f < motion.frames.size(); ++f) {
-    const auto column = angles_deg.col(static_cast<Eigen::Index>(f));
     FramePoses& frame = poses.frames.emplace_back();
     if (f < source.images.size()) frame.image = source.images[f];
     if (f < source.times_s.size()) frame.time_s = source.times_s[f];
-    PersonPose& person = frame.people.emplace_back();
+    const auto& scales_px_per_m = source.camera.scale_px_per_m;
+    PersonPose person =
+        statuses[f] == kUnknownStatus
+            ? PersonPose{}
+            : to_person.Convert(motion.frames[f],
+                                f < scales_px_per_m.size() ? scales_px_per_m[f] : kUnknown);
     person.id = source.person_id;
     person.status = statuses[f];
-    if (statuses[f] == kUnknownStatus) {
-      person.message = "in a gap that is too long to be filled";
-      continue;
-    }
-    const SkeletonPose& pose = motion.frames[f];
-    const Eigen::Vector3d pelvis_m = pose.root_in_world_m + source.camera.world_in_level_cam_m;
-    const Pose3 joints_m = JointPositions(body, pose).colwise() - pose.root_in_world_m;
-    for (int j = 0; j < kNumJoints; ++j)
-      person.joints_in_cam_m.col(j) = LevelFromCam(joints_m.col(j));
-    person.rotation_cam_from_body = kLevelFromCam * pose.world_from_root;
-    SetPlaceInPicture(source.camera, f, LevelFromCam(pelvis_m), &person);
-    for (Eigen::Index a = 0; a < column.size(); ++a)
-      person.angles_deg.emplace_back(JointAngles()[a].name, column[a]);
+    if (statuses[f] == kUnknownStatus) person.message = kUnknownMessage;
+    frame.people.push_back(std::move(person));
   }
   return poses;
 }

@@ -2,12 +2,12 @@
 // Copyright (c) 2026 the poselift authors
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "lift/camera_track.h"
 #include "src/motion.h"
 #include "src/poses.h"
 #include "src/progress.h"
@@ -38,15 +38,7 @@ struct PosesToMotionOptions {
 // The statuses of frames that were filled, and of which nothing is known.
 inline constexpr std::string_view kFilledStatus = "filled";
 inline constexpr std::string_view kUnknownStatus = "not known";
-
-// What it takes to put the motion back before the camera.
-struct CameraTrack {
-  Eigen::Vector3d world_in_level_cam_m = Eigen::Vector3d::Zero();  // world's origin, level axes
-  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
-  bool has_depth = false;              // pelvis_in_cam_m was known
-  double focal_px = kUnknown;          // with depth: scale = focal_px / depth
-  std::vector<double> scale_px_per_m;  // without: of each frame, straight lines over gaps
-};
+inline constexpr std::string_view kUnknownMessage = "in a gap that is too long to be filled";
 
 struct PosesMotion {
   Motion motion;  // unknown frames where the person has no pose

@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "lift/temporal/pose_difference.h"
 #include "src/level_camera.h"
 
 namespace poselift {
@@ -48,14 +49,12 @@ Quaterniond MeanRotation(const std::vector<SkeletonPose>& poses, const Eigen::Ve
   return mean;
 }
 
-// Differences as MakePredictionCost has them: angles, then the turn from the
-// mean about the axes of its heading.
+// Without the root's place.
 PoseRows Difference(const SkeletonPose& pose, const SkeletonPose& mean) {
-  Quaterniond turn = pose.world_from_root * mean.world_from_root.conjugate();
-  if (turn.w() < 0.0) turn.coeffs() *= -1.0;
-  const Quaterniond heading(Eigen::AngleAxisd(Yaw(mean.world_from_root), Eigen::Vector3d::UnitY()));
+  const FeatureVector features = PoseDifference(pose, mean);
   PoseRows difference;
-  difference << pose.dofs - mean.dofs, 2.0 * (heading.conjugate() * turn.vec());
+  difference << features.head<kNumAngles>(), features[feature::kTilt], features[feature::kYawRate],
+      features[feature::kTilt + 1];
   return difference;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/forward_kinematics.h"
 #include "src/input_error.h"
 
 namespace poselift {
@@ -14,15 +15,17 @@ namespace {
 
 constexpr int kRateFrames = 2;
 constexpr double kTimeTolerance = 1e-6;  // of a frame
+// A mean of lever arms does not change by more of them.
+constexpr Eigen::Index kLeverArmPoses = 500;
 
-int FramesPerSample(double sample_time_s, double frame_time_s) {
-  const double frames = sample_time_s / frame_time_s;
+int FramesIn(double time_s, double frame_time_s) {
+  const double frames = time_s / frame_time_s;
   const double whole = std::round(frames);
   if (!(whole >= 1.0) || std::abs(frames - whole) > kTimeTolerance)
     throw InputError(
         fmt::format("found motions of {:g} frames a second, wanted so many that {:g} "
                     "s are a whole number of frames",
-                    1.0 / frame_time_s, sample_time_s));
+                    1.0 / frame_time_s, time_s));
   return static_cast<int>(whole);
 }
 
@@ -53,6 +56,12 @@ FeatureVector Change(const FeatureVector& from, const FeatureVector& to, double 
   return change;
 }
 
+// Per second, in the heading of frame t.
+FeatureVector RateAt(const FeatureMatrix& path, int t, double frame_time_s) {
+  return Change(path.col(t - kRateFrames), path.col(t + kRateFrames), path(segment_row::kYaw, t)) /
+         (2.0 * kRateFrames * frame_time_s);
+}
+
 // The sample as seen from the middle one.
 FeatureVector SeenFrom(const FeatureVector& middle, const FeatureVector& sample) {
   FeatureVector seen = sample;
@@ -66,6 +75,32 @@ Eigen::MatrixXf Mirrored(const Eigen::Ref<const Eigen::MatrixXf>& features,
   return MirroredFeatures(features.cast<double>(), skeleton).cast<float>();
 }
 
+constexpr int kPoseRows = kAccelerationInputs - kNumFeatures;
+
+// The pose and the rates of an input, each mirrored as what they are.
+Eigen::MatrixXf MirroredInputs(const Eigen::Ref<const Eigen::MatrixXf>& inputs,
+                               const Skeleton& skeleton) {
+  Eigen::MatrixXf poses = Eigen::MatrixXf::Zero(kNumFeatures, inputs.cols());
+  poses.topRows<kPoseRows>() = inputs.topRows<kPoseRows>();
+  Eigen::MatrixXf mirrored(kAccelerationInputs, inputs.cols());
+  mirrored << Mirrored(poses, skeleton).topRows<kPoseRows>(),
+      Mirrored(inputs.bottomRows<kNumFeatures>(), skeleton);
+  return mirrored;
+}
+
+AccelerationModels Mirrored(const AccelerationModels& models, const Skeleton& skeleton) {
+  AccelerationModels mirrored = models;
+  mirrored.means = Mirrored(Eigen::MatrixXf(models.means), skeleton);
+  mirrored.deviations = Mirrored(Eigen::MatrixXf(models.deviations), skeleton).cwiseAbs();
+  for (int r = 0; r < kAccelerationRank; ++r) {
+    mirrored.directions.middleRows<kAccelerationInputs>(r * kAccelerationInputs) = MirroredInputs(
+        models.directions.middleRows<kAccelerationInputs>(r * kAccelerationInputs), skeleton);
+    mirrored.responses.middleRows<kNumFeatures>(r * kNumFeatures) =
+        Mirrored(models.responses.middleRows<kNumFeatures>(r * kNumFeatures), skeleton);
+  }
+  return mirrored;
+}
+
 template <typename Matrix>
 void AppendColumns(const Eigen::MatrixXf& columns, Matrix* matrix) {
   matrix->conservativeResize(Eigen::NoChange, matrix->cols() + columns.cols());
@@ -74,13 +109,23 @@ void AppendColumns(const Eigen::MatrixXf& columns, Matrix* matrix) {
 
 }  // namespace
 
+AccelerationModels AccelerationModels::Zero(Eigen::Index num_segments) {
+  AccelerationModels models;
+  models.means.setZero(Eigen::NoChange, num_segments);
+  models.directions.setZero(Eigen::NoChange, num_segments);
+  models.responses.setZero(Eigen::NoChange, num_segments);
+  models.deviations.setZero(Eigen::NoChange, num_segments);
+  return models;
+}
+
 MotionCodebook SegmentsOf(const MotionDatabase& database, int stride_frames) {
   MotionCodebook codebook;
   codebook.skeleton = database.skeleton;
   const double dt = database.frame_time_s;
-  const int step = FramesPerSample(codebook.sample_time_s, dt);
+  const int step = FramesIn(codebook.sample_time_s, dt);
+  const int soon = FramesIn(kAccelerationTime_s, dt);
   const int before = std::max(kMiddleSample * step, kRateFrames);
-  const int after = std::max((kSegmentSamples - 1 - kMiddleSample) * step, kRateFrames);
+  const int after = std::max((kSegmentSamples - 1 - kMiddleSample) * step, soon + kRateFrames);
   Eigen::Index count = 0;
   for (const Trial& trial : database.trials)
     if (const int middles = trial.num_frames - before - after; middles > 0)
@@ -88,6 +133,7 @@ MotionCodebook SegmentsOf(const MotionDatabase& database, int stride_frames) {
   codebook.segments.resize(Eigen::NoChange, count);
   codebook.rates.resize(Eigen::NoChange, count);
   codebook.deviations.setZero(kNumFeatures, count);
+  codebook.accelerations = AccelerationModels::Zero(count);
 
   Eigen::Index k = 0;
   for (const Trial& trial : database.trials) {
@@ -97,9 +143,10 @@ MotionCodebook SegmentsOf(const MotionDatabase& database, int stride_frames) {
       for (int s = 0; s < kSegmentSamples; ++s)
         codebook.segments.col(k).segment<kNumFeatures>(s * kNumFeatures) =
             SeenFrom(path.col(t), path.col(t + (s - kMiddleSample) * step)).cast<float>();
-      const FeatureVector change =
-          Change(path.col(t - kRateFrames), path.col(t + kRateFrames), path(segment_row::kYaw, t));
-      codebook.rates.col(k) = (change / (2.0 * kRateFrames * dt)).cast<float>();
+      const FeatureVector rate = RateAt(path, t, dt);
+      codebook.rates.col(k) = rate.cast<float>();
+      codebook.accelerations.means.col(k) =
+          ((RateAt(path, t + soon, dt) - rate) / (soon * dt)).cast<float>();
     }
   }
   return codebook;
@@ -115,7 +162,43 @@ MotionCodebook WithMirrored(const MotionCodebook& codebook) {
   AppendColumns(segments, &both.segments);
   AppendColumns(Mirrored(codebook.rates, codebook.skeleton), &both.rates);
   AppendColumns(Mirrored(codebook.deviations, codebook.skeleton).cwiseAbs(), &both.deviations);
+  const AccelerationModels models = Mirrored(codebook.accelerations, codebook.skeleton);
+  AppendColumns(models.means, &both.accelerations.means);
+  AppendColumns(models.directions, &both.accelerations.directions);
+  AppendColumns(models.responses, &both.accelerations.responses);
+  AppendColumns(models.deviations, &both.accelerations.deviations);
   return both;
+}
+
+Eigen::Matrix<float, kAccelerationInputs, Eigen::Dynamic> MotionCodebook::AccelerationInputs()
+    const {
+  Eigen::Matrix<float, kAccelerationInputs, Eigen::Dynamic> inputs(kAccelerationInputs,
+                                                                   segments.cols());
+  inputs << segments.middleRows<kPoseRows>(kMiddleSample * kNumFeatures), rates;
+  return inputs;
+}
+
+FeatureVector LeverArms(const MotionCodebook& codebook) {
+  const JointSites sites = FindJointSites(codebook.skeleton);
+  const Eigen::Index stride = std::max<Eigen::Index>(1, codebook.segments.cols() / kLeverArmPoses);
+  FeatureVector sum = FeatureVector::Zero();
+  BoneFrames frames;
+  Eigen::MatrixXd jacobian;
+  double count = 0.0;
+  for (Eigen::Index k = 0; k < codebook.segments.cols(); k += stride, ++count) {
+    const SkeletonPose pose = PoseOfSample(codebook.segments.col(k)
+                                               .segment<kNumFeatures>(kMiddleSample * kNumFeatures)
+                                               .cast<double>());
+    ForwardKinematics(codebook.skeleton, pose, &frames);
+    JointJacobian(codebook.skeleton, sites, pose, frames, &jacobian);
+    const Eigen::VectorXd moved_m =
+        (jacobian.colwise().squaredNorm() / kNumJoints).cwiseSqrt().transpose();
+    FeatureVector arms;  // the body heads for z: turns about x and z are its tilt
+    arms << moved_m.tail<kNumAngles>(), moved_m[1], moved_m[3], moved_m[5], moved_m[0], moved_m[2],
+        moved_m[4];
+    sum += arms;
+  }
+  return sum / count;
 }
 
 SkeletonPose PoseOfSample(const FeatureVector& sample) {

@@ -42,6 +42,28 @@ struct CodebookRecord {
   double rms_error_mm = 0.0;  // of the captured segments' joints (CodebookReport)
 };
 
+// How the rates go on from a segment's middle, a local regression of order one for
+// each (Eq. 3-10 of the motion paper, m = 2), with x_c the segment's own x:
+//
+//   a(x) = mean + R D^T (x - x_c) + N(0, deviation^2),   x = [rows 0..42; rates]
+//
+// a: mean change of the rates over the next kAccelerationTime_s, per second, as the
+// body that turns has it. D, 89 x kAccelerationRank, are the principal directions of
+// x among what was captured around x_c, R, 46 x kAccelerationRank, what follows.
+inline constexpr double kAccelerationTime_s = 1.0 / 15.0;
+inline constexpr int kAccelerationRank = 2;
+inline constexpr int kAccelerationInputs = 43 + kNumFeatures;
+
+struct AccelerationModels {  // a column a segment
+  Eigen::Matrix<float, kNumFeatures, Eigen::Dynamic> means;
+  // Columns of D, and of R, one under the other. Zeros for captured segments.
+  Eigen::Matrix<float, kAccelerationInputs * kAccelerationRank, Eigen::Dynamic> directions;
+  Eigen::Matrix<float, kNumFeatures * kAccelerationRank, Eigen::Dynamic> responses;
+  Eigen::Matrix<float, kNumFeatures, Eigen::Dynamic> deviations;
+
+  static AccelerationModels Zero(Eigen::Index num_segments);
+};
+
 struct MotionCodebook {
   Skeleton skeleton;
   double sample_time_s = 2.0 / 15.0;
@@ -50,14 +72,22 @@ struct MotionCodebook {
   Eigen::Matrix<float, kNumFeatures, Eigen::Dynamic> rates;
   // Standard deviation of the middle sample within what the segment stands for.
   Eigen::Matrix<float, kNumFeatures, Eigen::Dynamic> deviations;
+  AccelerationModels accelerations;
   CodebookRecord record;
 
   int NumSegments() const { return static_cast<int>(segments.cols()); }
+  // x of the regressions, of all segments.
+  Eigen::Matrix<float, kAccelerationInputs, Eigen::Dynamic> AccelerationInputs() const;
 };
+
+// How far the 23 joints move (RMS), metres, by a unit of each row of the middle
+// sample: mean over the codebook's segments.
+FeatureVector LeverArms(const MotionCodebook& codebook);
 
 // All segments of a database, every stride_frames-th frame as the middle, with
 // deviations of zero. None reaches beyond its trial. Rates are central
-// differences over two frames either way. Throws InputError when sample_time_s
+// differences over two frames either way. The frame time is a whole part of
+// kAccelerationTime_s too. Throws InputError when sample_time_s
 // is no whole number, from 1, of the database's frames.
 MotionCodebook SegmentsOf(const MotionDatabase& database, int stride_frames = 3);
 

@@ -19,12 +19,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr ArrayFileKind kKind = {.magic = "PLMOTN\r\n",
-                                 .version = 1,
+                                 .version = 2,
                                  .what = "motion codebook",
                                  .ending = ".plmotion",
                                  .command = "poselift train --motion"};
 constexpr double kLongestSampleTime_s = 10.0;
-constexpr double kLargestNumber = 1e3;  // radians or metres, and either per second
+constexpr double kLargestNumber = 1e3;      // radians or metres, and either per second
+constexpr double kLargestRegression = 1e6;  // per second squared
 
 // The degrees of freedom by bone and axis, then what the root has.
 std::vector<std::string> FeatureNames(const Skeleton& skeleton) {
@@ -78,10 +79,20 @@ std::string ArrayFlaw(const MotionCodebook& codebook) {
   if (count < 1 || codebook.rates.cols() != count || codebook.deviations.cols() != count)
     return fmt::format("has {} segments, {} rates and {} deviations, wanted as many of each", count,
                        codebook.rates.cols(), codebook.deviations.cols());
+  const AccelerationModels& models = codebook.accelerations;
+  if (models.means.cols() != count || models.directions.cols() != count ||
+      models.responses.cols() != count || models.deviations.cols() != count)
+    return fmt::format("has {} segments, and not as many regressions", count);
   if (!AllWithin(codebook.segments, kLargestNumber) || !AllWithin(codebook.rates, kLargestNumber) ||
-      !AllWithin(codebook.deviations, kLargestNumber))
-    return fmt::format("has a number that is not finite or beyond {:g}", kLargestNumber);
-  if ((codebook.deviations.array() < 0.0f).any()) return "has a deviation below 0";
+      !AllWithin(codebook.deviations, kLargestNumber) ||
+      !AllWithin(models.means, kLargestRegression) ||
+      !AllWithin(models.directions, kLargestRegression) ||
+      !AllWithin(models.responses, kLargestRegression) ||
+      !AllWithin(models.deviations, kLargestRegression))
+    return fmt::format("has a number that is not finite or beyond {:g}, {:g} in a regression",
+                       kLargestNumber, kLargestRegression);
+  if ((codebook.deviations.array() < 0.0f).any() || (models.deviations.array() < 0.0f).any())
+    return "has a deviation below 0";
   return "";
 }
 
@@ -115,7 +126,11 @@ void WriteMotionCodebook(const MotionCodebook& codebook, const std::filesystem::
   WriteArrayFile(kKind, Header(codebook),
                  {{"segments", codebook.segments},
                   {"rates", codebook.rates},
-                  {"deviations", codebook.deviations}},
+                  {"deviations", codebook.deviations},
+                  {"acceleration_means", codebook.accelerations.means},
+                  {"acceleration_directions", codebook.accelerations.directions},
+                  {"acceleration_responses", codebook.accelerations.responses},
+                  {"acceleration_deviations", codebook.accelerations.deviations}},
                  path);
 }
 
@@ -128,8 +143,16 @@ MotionCodebook ReadMotionCodebook(const std::filesystem::path& path) {
   codebook.sample_time_s = root.At("sample_time_s").Number();
   codebook.record = ReadRecord(root.At("training"));
   codebook.segments = file.Read<float>("segments", kSegmentRows, 0);
-  codebook.rates = file.Read<float>("rates", kNumFeatures, codebook.segments.cols());
-  codebook.deviations = file.Read<float>("deviations", kNumFeatures, codebook.segments.cols());
+  const Eigen::Index count = codebook.segments.cols();
+  codebook.rates = file.Read<float>("rates", kNumFeatures, count);
+  codebook.deviations = file.Read<float>("deviations", kNumFeatures, count);
+  AccelerationModels& models = codebook.accelerations;
+  models.means = file.Read<float>("acceleration_means", kNumFeatures, count);
+  models.directions =
+      file.Read<float>("acceleration_directions", kAccelerationInputs * kAccelerationRank, count);
+  models.responses =
+      file.Read<float>("acceleration_responses", kNumFeatures * kAccelerationRank, count);
+  models.deviations = file.Read<float>("acceleration_deviations", kNumFeatures, count);
   if (const std::string flaw = CodebookFlaw(codebook); !flaw.empty()) throw InputError(path, flaw);
   return codebook;
 }

@@ -64,6 +64,13 @@ double Yaw(const Quaterniond& world_from_root) {
   return WithoutTurns(2.0 * std::atan2(world_from_root.y(), world_from_root.w()));
 }
 
+FeatureVector PoseFeatures(const SkeletonPose& pose) {
+  FeatureVector features;
+  features << pose.dofs, pose.root_in_world_m.y(),
+      Tilt(pose.world_from_root, Yaw(pose.world_from_root)), Eigen::Vector3d::Zero();
+  return features;
+}
+
 FeatureMatrix MotionFeatures(const Motion& motion) {
   RequireFeatureSkeleton(motion.skeleton);
   if (!(motion.frame_time_s > 0.0))
@@ -75,10 +82,7 @@ FeatureMatrix MotionFeatures(const Motion& motion) {
     const SkeletonPose& pose = motion.frames[t];
     const double yaw_rad = Yaw(pose.world_from_root);
     auto column = features.col(t);
-    column.head<kNumAngles>() = pose.dofs;
-    column[feature::kHeight] = pose.root_in_world_m.y();
-    column.segment<2>(feature::kTilt) = Tilt(pose.world_from_root, yaw_rad);
-    column.tail<3>().setZero();
+    column = PoseFeatures(pose);
     if (t > 0) {
       for (int d = 0; d < kNumAngles; ++d) {
         const double before_rad = features(d, t - 1);

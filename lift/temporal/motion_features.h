@@ -45,6 +45,9 @@ double Yaw(const Eigen::Quaterniond& world_from_root);
 // dofs, all of them rotations.
 std::string FeatureSkeletonFlaw(const Skeleton& skeleton);
 
+// Rows 0..42 of one pose, the others 0; angles as they are.
+FeatureVector PoseFeatures(const SkeletonPose& pose);
+
 // Throws InputError for a skeleton with a FeatureSkeletonFlaw and for a frame time that is not
 // positive.
 FeatureMatrix MotionFeatures(const Motion& motion);

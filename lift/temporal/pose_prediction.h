@@ -23,12 +23,8 @@ struct PosePrediction {
   Eigen::MatrixXd whitening;  // r x 46, of differences of features
 };
 
-// E_prior of Eq. (2): whitening delta(q), r rows, where delta is the difference
-// of the features (motion_features.h) of q and of the mean, to first order in
-// the root's: with H the heading of the mean,
-//   rows 0..39   dofs - mean
-//   rows 43, 40, 44 (times dt, 1, dt)   H^T (p - p_mean)
-//   rows 41, 45, 42 (1, times dt, 1)    H^T 2 vec(q conj(q_mean))
+// E_prior of Eq. (2): whitening delta(q), r rows, where delta is PoseDifference(q,
+// mean) with the frame time dt: rows 43, 44 and 45 divided by it.
 // Parameter blocks: root_in_world_m, world_from_root (x y z w), dofs, as in
 // lift/ik/pose_costs.h.
 std::unique_ptr<ceres::CostFunction> MakePredictionCost(const PosePrediction& prediction,

@@ -19,8 +19,6 @@ namespace {
 constexpr double kUnseenVariance = 1e-3;
 // What turns no joint's place must not differ at will: a mean would be neither.
 constexpr double kShortestLeverArm_m = 0.02;
-// A mean of lever arms does not change by more of them.
-constexpr Eigen::Index kLeverArmPoses = 500;
 constexpr Eigen::Index kBlock = 256;
 
 auto MiddleSamples(const MotionCodebook& codebook) {
@@ -108,35 +106,18 @@ std::string CodebookOptions::Validate() const {
     return fmt::format("CodebookOptions::iterations = {}, wanted at least 1", iterations);
   if (least_members < 1)
     return fmt::format("CodebookOptions::least_members = {}, wanted at least 1", least_members);
-  return "";
-}
-
-FeatureVector LeverArms(const MotionCodebook& codebook) {
-  const JointSites sites = FindJointSites(codebook.skeleton);
-  const Eigen::Index stride = std::max<Eigen::Index>(1, codebook.segments.cols() / kLeverArmPoses);
-  FeatureVector sum = FeatureVector::Zero();
-  BoneFrames frames;
-  Eigen::MatrixXd jacobian;
-  double count = 0.0;
-  for (Eigen::Index k = 0; k < codebook.segments.cols(); k += stride, ++count) {
-    const SkeletonPose pose = PoseOfSample(MiddleSamples(codebook).col(k).cast<double>());
-    ForwardKinematics(codebook.skeleton, pose, &frames);
-    JointJacobian(codebook.skeleton, sites, pose, frames, &jacobian);
-    const Eigen::VectorXd moved_m =
-        (jacobian.colwise().squaredNorm() / kNumJoints).cwiseSqrt().transpose();
-    FeatureVector arms;  // the body heads for z: turns about x and z are its tilt
-    arms << moved_m.tail<kNumAngles>(), moved_m[1], moved_m[3], moved_m[5], moved_m[0], moved_m[2],
-        moved_m[4];
-    sum += arms;
-  }
-  return sum / count;
+  return accelerations.Validate();
 }
 
 MotionCodebook TrainCodebook(const MotionCodebook& segments, const CodebookOptions& options,
                              const ProgressFn& progress, CodebookReport* report) {
+  const auto part = [&](double from) -> ProgressFn {
+    if (!progress) return {};
+    return [&progress, from](double share) { progress(from + 0.5 * share); };
+  };
   const Eigen::MatrixXd points = Points(segments);
   Eigen::VectorXi cells =
-      KMeans(points, options.num_segments, options.iterations, options.seed, progress);
+      KMeans(points, options.num_segments, options.iterations, options.seed, part(0.0));
   DissolveSmallCells(points, options.least_members, &cells);
   const int num_cells = cells.maxCoeff() + 1;
   report->members.assign(static_cast<size_t>(num_cells), 0);
@@ -157,6 +138,7 @@ MotionCodebook TrainCodebook(const MotionCodebook& segments, const CodebookOptio
       Deviations(segments, cells, means.middleRows<kNumFeatures>(kMiddleSample * kNumFeatures),
                  counts)
           .cast<float>();
+  TrainAccelerations(segments, options.accelerations, part(0.5), &codebook);
   const Eigen::MatrixXd captured_m = MiddleJoints_m(segments), learned_m = MiddleJoints_m(codebook);
   double squared = 0.0;
   for (Eigen::Index j = 0; j < cells.size(); ++j)

@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "lift/temporal/motion_codebook.h"
+#include "lift/train/train_accelerations.h"
 #include "src/progress.h"
 
 namespace poselift {
 
 // Learns a motion codebook: k-means over captured segments, each cell the mean of
-// its members. Differences are weighed in metres, by how far they move the joints
-// (LeverArms), the rates times the time between two samples.
+// its members, and a regression for each (TrainAccelerations). Differences are weighed in metres,
+// by how far they move the joints (LeverArms), the rates times the time between two samples.
 struct CodebookOptions {
   int num_segments = 6000;
   int iterations = 15;
@@ -22,6 +23,7 @@ struct CodebookOptions {
   // that no segment of the codebook is one that was captured.
   int least_members = 2;
   std::uint64_t seed = 1;
+  AccelerationOptions accelerations;
 
   std::string Validate() const;
 };
@@ -41,10 +43,6 @@ struct CodebookReport {
 // seed and the error; sources, command and commit are the caller's to fill in.
 MotionCodebook TrainCodebook(const MotionCodebook& segments, const CodebookOptions& options,
                              const ProgressFn& progress, CodebookReport* report);
-
-// How far the 23 joints move (RMS), metres, by a unit of each row of the middle
-// sample: mean over the codebook's segments.
-FeatureVector LeverArms(const MotionCodebook& codebook);
 
 // Mean distance, metres, of the 23 joints at the middle sample of captured
 // segments to those of the codebook's segment where they are nearest (RMS).

@@ -148,9 +148,9 @@ class JsonBuilder {
 JsonDocument::JsonDocument(const std::filesystem::path& path)
     : JsonDocument(ReadTextFile(path), path.string()) {}
 
-JsonDocument::JsonDocument(std::string_view text, const std::string& file)
+JsonDocument::JsonDocument(std::string_view text, const std::string& file, int first_line)
     : root_(std::make_unique<JsonValue>()) {
-  int line = 1;
+  int line = first_line;
   JsonBuilder builder(file, root_.get(), &line);
   nlohmann::json::sax_parse(LineCountingIterator(text.data(), &line),
                             LineCountingIterator(text.data() + text.size(), &line), &builder);

@@ -77,8 +77,8 @@ class JsonValue {
 class JsonDocument {
  public:
   explicit JsonDocument(const std::filesystem::path& path);
-  // file: the name for messages.
-  JsonDocument(std::string_view text, const std::string& file);
+  // file: the name for messages; first_line: where the text begins in it.
+  JsonDocument(std::string_view text, const std::string& file, int first_line = 1);
 
   const JsonValue& root() const { return *root_; }
 

@@ -124,14 +124,15 @@ void AppendPerson(const PersonPose& person, std::string* out) {
   object.Close();
 }
 
-void AppendFrame(const FramePoses& frame, std::string* out) {
+void AppendFrame(const FramePoses& frame, std::string_view before_person, std::string* out) {
   ObjectText object(out);
   if (!frame.image.empty()) object.Text("image", frame.image);
   if (frame.time_s) object.Number("time_s", *frame.time_s, kTimeDecimals);
   object.Key("people");
   *out += '[';
   for (size_t i = 0; i < frame.people.size(); ++i) {
-    *out += i > 0 ? ",\n    " : "\n    ";
+    if (i > 0) *out += ',';
+    *out += before_person;
     AppendPerson(frame.people[i], out);
   }
   *out += ']';
@@ -213,7 +214,26 @@ PersonPose ReadPerson(const JsonValue& json) {
   return person;
 }
 
+FramePoses ReadFrame(const JsonValue& json) {
+  FramePoses frame;
+  if (const JsonValue* image = json.Find("image")) frame.image = image->String();
+  if (const JsonValue* time = json.Find("time_s")) frame.time_s = ReadNumber(*time);
+  for (const JsonValue& person : json.At("people").Items())
+    frame.people.push_back(ReadPerson(person));
+  return frame;
+}
+
 }  // namespace
+
+std::string FramePosesLine(const FramePoses& frame) {
+  std::string line;
+  AppendFrame(frame, "", &line);
+  return line + '\n';
+}
+
+FramePoses ReadFramePosesLine(std::string_view text, const std::string& file, int line) {
+  return ReadFrame(JsonDocument(text, file, line).root());
+}
 
 std::string PosesJson(const Poses& poses) {
   std::string text = fmt::format(
@@ -225,7 +245,7 @@ std::string PosesJson(const Poses& poses) {
   text += "],\n \"frames\": [";
   for (size_t i = 0; i < poses.frames.size(); ++i) {
     text += i > 0 ? ",\n  " : "\n  ";
-    AppendFrame(poses.frames[i], &text);
+    AppendFrame(poses.frames[i], "\n    ", &text);
   }
   return text + "]}\n";
 }
@@ -242,14 +262,7 @@ Poses ReadPosesJson(const std::filesystem::path& path) {
   if (const JsonValue& version = root.At("version"); version.Number() != 1.0)
     throw version.Unwanted("1, the version that this poselift reads");
   Poses poses;
-  for (const JsonValue& json : root.At("frames").Items()) {
-    FramePoses frame;
-    if (const JsonValue* image = json.Find("image")) frame.image = image->String();
-    if (const JsonValue* time = json.Find("time_s")) frame.time_s = ReadNumber(*time);
-    for (const JsonValue& person : json.At("people").Items())
-      frame.people.push_back(ReadPerson(person));
-    poses.frames.push_back(std::move(frame));
-  }
+  for (const JsonValue& json : root.At("frames").Items()) poses.frames.push_back(ReadFrame(json));
   return poses;
 }
 

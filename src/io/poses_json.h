@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "src/poses.h"
 
@@ -19,6 +20,11 @@ void WritePosesJson(const Poses& poses, const std::filesystem::path& path);
 
 // The text that WritePosesJson writes.
 std::string PosesJson(const Poses& poses);
+
+// A frame of it alone, on one line that ends in a line break: JSON lines.
+std::string FramePosesLine(const FramePoses& frame);
+// line: the number of the line in the file, for messages.
+FramePoses ReadFramePosesLine(std::string_view text, const std::string& file, int line);
 
 // Reads it back: equal up to the rounding. Unknown keys are passed over.
 // Throws InputError: file:line: the JSON path, what was found, what was wanted.

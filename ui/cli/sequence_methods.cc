@@ -15,9 +15,12 @@
 #include "lift/baselines/savitzky_golay.h"
 #include "lift/lift_photo.h"
 #include "lift/lift_sequence.h"
+#include "lift/online_smoothing.h"
+#include "lift/person_ik.h"
 #include "lift/point_curves.h"
 #include "lift/rotation.h"
 #include "src/forward_kinematics.h"
+#include "src/level_camera.h"
 
 namespace poselift::cli {
 namespace {
@@ -88,17 +91,39 @@ SequenceFilter OneEuro(double min_cutoff_hz, double beta) {
                   });
 }
 
+// As a stream of poses would be smoothed.
+SequenceFilter Online(const Skeleton& skeleton,
+                      const std::shared_ptr<const MotionCodebook>& codebook, double latency_s) {
+  return {fmt::format("online, {:g} s late", latency_s),
+          [=](const std::vector<Pose3>& poses, double frame_time_s) {
+            PersonIk ik(skeleton);
+            Motion motion{skeleton, frame_time_s, {}};
+            for (const Pose3& pose : poses) {
+              PersonPose person;
+              person.joints_in_cam_m = pose;
+              motion.frames.push_back(ik.Solve(person, {}));
+            }
+            const Motion smooth = SmootherOnline(codebook, {.latency_s = latency_s})(motion, 1000);
+            std::vector<Pose3> smoothed;
+            for (const SkeletonPose& pose : smooth.frames)
+              smoothed.push_back(kLevelFromCam.toRotationMatrix() * JointPositions(skeleton, pose));
+            return smoothed;
+          }};
+}
+
 }  // namespace
 
 std::vector<NamedSequenceMethod> SequenceMethods(const Dictionary& dictionary,
                                                  const MotionCodebook& codebook) {
+  const auto shared = std::make_shared<const MotionCodebook>(codebook);
   const auto lifter = std::make_shared<PhotoLifter>(dictionary);
   const auto together = std::make_shared<SequenceLifter>(*lifter, codebook);
   return {{"each frame alone",
            [lifter](const Sequence& sequence, double) { return LiftFrames(*lifter, sequence); },
            {Butterworth("Butterworth 1.5 Hz", 1.5), Butterworth("Butterworth 3 Hz", 3.0),
             Butterworth("Butterworth 6 Hz", 6.0), SavitzkyGolayOf(9), SavitzkyGolayOf(21),
-            OneEuro(1.0, 3.0), OneEuro(0.5, 1.0)}},
+            OneEuro(1.0, 3.0), OneEuro(0.5, 1.0), Online(dictionary.skeleton, shared, 0.0),
+            Online(dictionary.skeleton, shared, 0.1)}},
           {"labels at 4 Hz",
            [lifter](const Sequence& sequence, double frame_time_s) {
              return LiftFrames(*lifter,

@@ -8,15 +8,19 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "lift/default_dictionary.h"
+#include "lift/dictionary_file.h"
 #include "lift/poses_to_motion.h"
 #include "lift/smooth_motion.h"
 #include "lift/temporal/foot_contact.h"
 #include "lift/temporal/foot_lock.h"
+#include "src/input_error.h"
 #include "src/io/atomic_file.h"
 #include "src/io/motion_file.h"
 #include "src/io/poses_json.h"
@@ -24,6 +28,7 @@
 #include "ui/cli/frame_rate.h"
 #include "ui/cli/motion_input.h"
 #include "ui/cli/progress.h"
+#include "ui/cli/smooth_stream.h"
 #include "ui/cli/smoothing_methods.h"
 
 namespace poselift::cli {
@@ -182,7 +187,44 @@ void Write(const PosesMotion& source, const SmoothedMotion& smoothed, const Opti
   }
 }
 
+// JSON lines come as they are captured, from a program or a file of any length.
+bool IsStream(const std::string& path) {
+  return path == kStandardStream || std::filesystem::path(path).extension() == ".jsonl";
+}
+
+void RequireStreamOptions(const Options& options) {
+  if (!IsStream(options.in) || !IsStream(options.out))
+    throw InputError(fmt::format(
+        "found {} in and {} out, wanted JSON lines (- or .jsonl) for both or for neither",
+        options.in, options.out));
+  if (options.method != SmoothingMethods().front().name && options.method != kOnlineMethod)
+    throw InputError(
+        fmt::format("--method {}: wanted online for JSON lines: the others look at "
+                    "all frames",
+                    options.method));
+  if (options.lock_feet || !options.json.empty())
+    throw InputError("--lock-feet and --json want a file that ends: write poses.json instead");
+}
+
+int SmoothLines(const Options& options) {
+  RequireStreamOptions(options);
+  StreamOptions stream{options.input.person_id, std::nullopt, options.smoothing.online};
+  stream.online.max_gap_s = options.smooth.max_gap_s;
+  if (options.input.fps > 0.0) stream.frame_time_s = 1.0 / options.input.fps;
+  const Skeleton skeleton = ReadDictionary(options.input.dictionary.empty()
+                                               ? DefaultDictionaryPath()
+                                               : std::filesystem::path(options.input.dictionary))
+                                .skeleton;
+  const auto codebook = ReadCodebook(options.smoothing);
+  const StreamReport report =
+      SmoothStreamFiles(options.in, options.out, skeleton, codebook, stream);
+  fmt::print(stderr, "{} frames, {:.3g} s late; {} filled, {} not known\n", report.num_frames,
+             stream.online.latency_s, report.num_filled, report.num_unknown);
+  return kDone;
+}
+
 int Smooth(const Options& options) {
+  if (IsStream(options.in) || IsStream(options.out)) return SmoothLines(options);
   const PosesMotion source = ReadMotionInput(options.in, options.input);
   const Smoothing smoothing = MakeSmoothing(options.method, source.motion, options.smoothing);
   SmoothedMotion smoothed = SmoothMotion(source.motion, smoothing.smoother, options.smooth);
@@ -208,6 +250,11 @@ void AddMethodOptions(CLI::App* command, SmoothingOptions* options) {
   command->add_option("--motion-model", options->motion_model,
                       "Of motion-model: a codebook [the one that ships]");
   command
+      ->add_option("--latency-s", options->online.latency_s,
+                   "Of online: how much later frames come out, the wiser for it")
+      ->check(IsNumber(0.0, 10.0))
+      ->capture_default_str();
+  command
       ->add_option("--window-frames", options->savitzky_golay.window_frames,
                    "Of savitzky-golay: odd")
       ->capture_default_str();
@@ -229,10 +276,13 @@ CLI::App* AddSmooth(CLI::App* app, Run* run) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand("smooth", "Fill the gaps of a motion and smooth it");
   command->footer(
+      "JSON lines (.jsonl, or - for standard input and output), a frame of poses.json each, are\n"
+      "smoothed as they come and may go on for ever.\n"
       "To see what it did: poselift plot BEFORE AFTER --angles left_knee.flexion --out knee.svg\n"
       "Example: poselift smooth out/poses.json --out smooth.bvh --lock-feet");
-  command->add_option("IN", options->in, "Motion to read: poses.json, .bvh, .amc")->required();
-  command->add_option("--out", options->out, "File to write: .json (poses), .bvh, .amc")
+  command->add_option("IN", options->in, "Motion to read: poses.json, .bvh, .amc, or .jsonl")
+      ->required();
+  command->add_option("--out", options->out, "File to write: .json (poses), .bvh, .amc, or .jsonl")
       ->required();
   command->add_option("--method", options->method, MethodHelp())
       ->check(CLI::IsMember(MethodNames()))

@@ -12,6 +12,7 @@
 #include "lift/baselines/butterworth.h"
 #include "lift/default_dictionary.h"
 #include "lift/model_smoother.h"
+#include "lift/online_smoothing.h"
 #include "lift/temporal/motion_codebook_file.h"
 
 namespace poselift::cli {
@@ -57,12 +58,6 @@ Smoothing OneEuro(const Motion&, const SmoothingOptions& options) {
                       filter.min_cutoff_hz, filter.beta)};
 }
 
-std::shared_ptr<const MotionCodebook> Codebook(const SmoothingOptions& options) {
-  return std::make_shared<MotionCodebook>(WithMirrored(ReadMotionCodebook(
-      options.motion_model.empty() ? DefaultMotionModelPath()
-                                   : std::filesystem::path(options.motion_model))));
-}
-
 Smoothing ByModel(const std::shared_ptr<const MotionCodebook>& codebook) {
   return {SmootherByModel(codebook),
           fmt::format("motion model of {} segments, from all frames", codebook->NumSegments())};
@@ -70,9 +65,17 @@ Smoothing ByModel(const std::shared_ptr<const MotionCodebook>& codebook) {
 
 // The model where the motion is on its skeleton.
 Smoothing Auto(const Motion& motion, const SmoothingOptions& options) {
-  const auto codebook = Codebook(options);
+  const auto codebook = ReadCodebook(options);
   return IsOnSkeletonOf(*codebook, motion.skeleton) ? ByModel(codebook)
                                                     : Butterworth(motion, options);
+}
+
+// What a live stream would get, frame by frame.
+Smoothing Online(const Motion&, const SmoothingOptions& options) {
+  const auto codebook = ReadCodebook(options);
+  return {SmootherOnline(codebook, options.online),
+          fmt::format("motion model of {} segments, from earlier frames and {:.3g} s of later ones",
+                      codebook->NumSegments(), options.online.latency_s)};
 }
 
 Smoothing FillAlone(GapFill fill, std::string summary) {
@@ -83,9 +86,11 @@ Smoothing FillAlone(GapFill fill, std::string summary) {
 constexpr std::array kMethods = {
     SmoothingMethod{"auto", "motion-model for poselift's own motions, butterworth for others",
                     Auto},
-    SmoothingMethod{
-        "motion-model", "what similar motions do; poses.json or poselift's own .amc",
-        [](const Motion&, const SmoothingOptions& options) { return ByModel(Codebook(options)); }},
+    SmoothingMethod{"motion-model", "what similar motions do; poses.json or poselift's own .amc",
+                    [](const Motion&, const SmoothingOptions& options) {
+                      return ByModel(ReadCodebook(options));
+                    }},
+    SmoothingMethod{kOnlineMethod, "the same model on a stream, --latency-s late", Online},
     SmoothingMethod{"butterworth", "low-pass filter forward and backward", Butterworth},
     SmoothingMethod{"savitzky-golay", "local polynomials", SavitzkyGolayFilter},
     SmoothingMethod{"one-euro", "online, lags little when fast", OneEuro},
@@ -101,6 +106,12 @@ constexpr std::array kMethods = {
 };
 
 }  // namespace
+
+std::shared_ptr<const MotionCodebook> ReadCodebook(const SmoothingOptions& options) {
+  return std::make_shared<MotionCodebook>(WithMirrored(ReadMotionCodebook(
+      options.motion_model.empty() ? DefaultMotionModelPath()
+                                   : std::filesystem::path(options.motion_model))));
+}
 
 std::span<const SmoothingMethod> SmoothingMethods() { return kMethods; }
 

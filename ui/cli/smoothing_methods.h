@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the poselift authors
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 #include "lift/baselines/one_euro.h"
 #include "lift/baselines/savitzky_golay.h"
 #include "lift/smooth_motion.h"
+#include "lift/temporal/online_smoother.h"
 #include "src/motion.h"
 
 namespace poselift::cli {
@@ -19,8 +21,12 @@ struct SmoothingOptions {
   std::optional<double> cutoff_hz;  // else 6 Hz, less for slow cameras
   SavitzkyGolayOptions savitzky_golay;
   OneEuroOptions one_euro;
+  OnlineSmootherOptions online;
   std::string motion_model;  // file; empty: the one that ships
 };
+
+// That of the options, with its mirror images.
+std::shared_ptr<const MotionCodebook> ReadCodebook(const SmoothingOptions& options);
 
 struct Smoothing {
   MotionSmoother smoother;
@@ -35,5 +41,6 @@ struct SmoothingMethod {
 };
 
 std::span<const SmoothingMethod> SmoothingMethods();
+inline constexpr std::string_view kOnlineMethod = "online";
 
 }  // namespace poselift::cli

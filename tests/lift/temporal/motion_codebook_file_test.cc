@@ -37,6 +37,13 @@ MotionCodebook RandomCodebook(int num_segments) {
   codebook.segments = RandomMatrix(kSegmentRows, num_segments, &rng).cast<float>();
   codebook.rates = RandomMatrix(kNumFeatures, num_segments, &rng).cast<float>();
   codebook.deviations = RandomMatrix(kNumFeatures, num_segments, &rng).cast<float>().cwiseAbs();
+  AccelerationModels& models = codebook.accelerations;
+  models.means = RandomMatrix(kNumFeatures, num_segments, &rng).cast<float>();
+  models.directions =
+      RandomMatrix(kAccelerationInputs * kAccelerationRank, num_segments, &rng).cast<float>();
+  models.responses =
+      RandomMatrix(kNumFeatures * kAccelerationRank, num_segments, &rng).cast<float>();
+  models.deviations = RandomMatrix(kNumFeatures, num_segments, &rng).cast<float>().cwiseAbs();
   codebook.record = {.sources = {"a.amc", "b \"1\".amc"},
                      .command = "poselift train --motion",
                      .commit = "0123abc",
@@ -69,6 +76,10 @@ TEST(MotionCodebookFile, GivesBackEveryBit) {
   EXPECT_EQ(read.segments, written.segments);
   EXPECT_EQ(read.rates, written.rates);
   EXPECT_EQ(read.deviations, written.deviations);
+  EXPECT_EQ(read.accelerations.means, written.accelerations.means);
+  EXPECT_EQ(read.accelerations.directions, written.accelerations.directions);
+  EXPECT_EQ(read.accelerations.responses, written.accelerations.responses);
+  EXPECT_EQ(read.accelerations.deviations, written.accelerations.deviations);
   EXPECT_EQ(read.sample_time_s, written.sample_time_s);
   EXPECT_EQ(read.skeleton.bones.size(), written.skeleton.bones.size());
   EXPECT_EQ(read.record.sources, written.record.sources);
@@ -117,7 +128,7 @@ TEST(MotionCodebookFile, SaysWhatAStrangeFileIs) {
               HasSubstr("is no motion codebook; wanted a .plmotion file, as `poselift train "
                         "--motion` writes"));
   std::string newer = BytesOf(RandomCodebook(1));
-  newer[8] = 2;
+  newer[8] = 3;
   EXPECT_THAT(RefusalOf(WriteScratch("newer.plmotion", newer)), HasSubstr("newer poselift"));
   EXPECT_THROW(ReadDictionary(ScratchDir() / "written.plmotion"), InputError);
   EXPECT_THROW(ReadMotionCodebook(ScratchDir() / "absent.plmotion"), InputError);
@@ -137,6 +148,10 @@ TEST(MotionCodebookFile, IsNotWrittenWithAFlaw) {
   expect_flaw("not finite", [&](MotionCodebook* c) { c->rates(1, 1) = 1e9f; });
   expect_flaw("not finite", [&](MotionCodebook* c) { c->deviations(1, 1) = nan; });
   expect_flaw("below 0", [](MotionCodebook* c) { c->deviations(5, 0) = -0.1f; });
+  expect_flaw("below 0", [](MotionCodebook* c) { c->accelerations.deviations(5, 0) = -0.1f; });
+  expect_flaw("not finite", [&](MotionCodebook* c) { c->accelerations.responses(1, 1) = nan; });
+  expect_flaw("as many regressions",
+              [](MotionCodebook* c) { c->accelerations.means.resize(kNumFeatures, 2); });
   expect_flaw("as many of each", [](MotionCodebook* c) { c->rates.resize(kNumFeatures, 2); });
   expect_flaw("as many of each", [](MotionCodebook* c) {
     c->segments.resize(kSegmentRows, 0);

@@ -157,6 +157,47 @@ TEST(MotionCodebook, MirrorImagesAreTheSegmentsOfTheMirroredMotion) {
                          planted.segments.cast<double>(), 1e-5));
   EXPECT_TRUE(
       MatrixNear(both.rates.rightCols(count).cast<double>(), planted.rates.cast<double>(), 1e-3));
+  EXPECT_TRUE(MatrixNear(both.accelerations.means.rightCols(count).cast<double>(),
+                         planted.accelerations.means.cast<double>(), 0.03));
+}
+
+// Of the right knee alone: what the left one does with a rate of -1 the right one's.
+TEST(MotionCodebook, RegressionsAreMirroredAsWhatTheyAre) {
+  const Skeleton skeleton = TrimmedCmuLikeSkeleton();
+  const auto row = [&](const char* bone) {
+    return skeleton.DofStarts()[static_cast<size_t>(*skeleton.FindBone(bone))];
+  };
+  const int left = row("ltibia"), right = row("rtibia");
+  MotionCodebook codebook = SegmentsOf(DatabaseOf({WalkInACircle(150)}), 1000);
+  ASSERT_EQ(codebook.NumSegments(), 1);
+  AccelerationModels& models = codebook.accelerations;
+  models.directions(kAccelerationInputs - kNumFeatures + left, 0) = 2.0f;
+  models.responses(left, 0) = 3.0f;
+  models.responses(segment_row::kPlace, 0) = 5.0f;
+  const AccelerationModels both = WithMirrored(codebook).accelerations;
+  EXPECT_EQ(both.directions(kAccelerationInputs - kNumFeatures + right, 1), 2.0f);
+  EXPECT_EQ(both.directions(kAccelerationInputs - kNumFeatures + left, 1), 0.0f);
+  EXPECT_EQ(both.responses(right, 1), 3.0f);
+  EXPECT_EQ(both.responses(segment_row::kPlace, 1), -5.0f);
+}
+
+TEST(MotionCodebook, AccelerationsAreHowRatesGoOn) {
+  // A knee that swings: the mean of its acceleration from t to t + 1/15 s.
+  Motion motion{TrimmedCmuLikeSkeleton(), 1.0 / 60.0, {}};
+  constexpr double kOmega = 4.0;
+  for (int f = 0; f < 100; ++f) {
+    motion.frames.push_back(SkeletonPose::Rest(motion.skeleton));
+    testing::DofOf(motion.skeleton, "ltibia", Dof::Kind::kRx, &motion.frames.back()) =
+        std::sin(kOmega * f / 60.0);
+  }
+  const MotionCodebook codebook = SegmentsOf(DatabaseOf({motion}), 7);
+  const int row = motion.skeleton.DofStarts()[*motion.skeleton.FindBone("ltibia")];
+  for (int k = 0; k < codebook.NumSegments(); ++k) {
+    const double t_s = (16 + 7 * k) / 60.0, later_s = t_s + kAccelerationTime_s;
+    const double mean =
+        kOmega * (std::cos(kOmega * later_s) - std::cos(kOmega * t_s)) / kAccelerationTime_s;
+    EXPECT_NEAR(codebook.accelerations.means(row, k), mean, 0.1);
+  }
 }
 
 TEST(MotionCodebook, TheMirrorImageOfTheMirrorImageHasTheSameBits) {
@@ -175,6 +216,26 @@ TEST(MotionCodebook, TheMirrorImageOfTheMirrorImageHasTheSameBits) {
   EXPECT_EQ(twice.segments.rightCols(7), codebook.segments);
   EXPECT_EQ(twice.rates.rightCols(7), codebook.rates);
   EXPECT_EQ(twice.deviations.rightCols(7), codebook.deviations);
+}
+
+TEST(LeverArms, AreWhatJointsMove) {
+  auto rng = TestRng();
+  MotionCodebook one;
+  one.skeleton = TrimmedCmuLikeSkeleton();
+  one.segments = (0.5 * testing::RandomMatrix(kSegmentRows, 1, &rng)).cast<float>();
+  auto middle = one.segments.middleRows<kNumFeatures>(kMiddleSample * kNumFeatures);
+  middle.middleRows<2>(feature::kTilt).setZero();
+  middle.bottomRows<3>().setZero();
+  const FeatureVector sample = middle.col(0).cast<double>();
+  const FeatureVector lever_arms_m = LeverArms(one);
+  constexpr double kStep = 1e-5;
+  for (int row = 0; row < kNumFeatures; ++row) {
+    const auto joints_m = [&](double step) {
+      return JointPositions(one.skeleton, PoseOfSample(sample + step * FeatureVector::Unit(row)));
+    };
+    const double moved_m = (joints_m(kStep) - joints_m(-kStep)).norm() / std::sqrt(kNumJoints);
+    EXPECT_NEAR(lever_arms_m[row], moved_m / (2.0 * kStep), 1e-6) << row;
+  }
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ Planted Plant(int num_cells, int num_segments, std::mt19937_64* rng) {
       (kSigma * RandomMatrix(kSegmentRows, num_segments, rng)).cast<float>();
   planted.segments.rates = (kSigma * RandomMatrix(kNumFeatures, num_segments, rng)).cast<float>();
   planted.segments.deviations.setZero(kNumFeatures, num_segments);
+  planted.segments.accelerations = AccelerationModels::Zero(num_segments);
   for (int j = 0; j < num_segments; ++j) {
     planted.segments.segments.col(j) += planted.means.segments.col(j % num_cells);
     planted.segments.rates.col(j) += planted.means.rates.col(j % num_cells);
@@ -143,24 +144,6 @@ TEST(TrainCodebook, OptionsAreChecked) {
   EXPECT_NE(CodebookOptions{.num_segments = 0}.Validate(), "");
   EXPECT_NE(CodebookOptions{.iterations = 0}.Validate(), "");
   EXPECT_NE(CodebookOptions{.least_members = 0}.Validate(), "");
-}
-
-TEST(LeverArms, AreWhatJointsMove) {
-  auto rng = TestRng();
-  MotionCodebook one = Plant(1, 1, &rng).segments;
-  auto middle = one.segments.middleRows<kNumFeatures>(kMiddleSample * kNumFeatures);
-  middle.middleRows<2>(feature::kTilt).setZero();
-  middle.bottomRows<3>().setZero();
-  const FeatureVector sample = middle.col(0).cast<double>();
-  const FeatureVector lever_arms_m = LeverArms(one);
-  constexpr double kStep = 1e-5;
-  for (int row = 0; row < kNumFeatures; ++row) {
-    const auto joints_m = [&](double step) {
-      return JointPositions(one.skeleton, PoseOfSample(sample + step * FeatureVector::Unit(row)));
-    };
-    const double moved_m = (joints_m(kStep) - joints_m(-kStep)).norm() / std::sqrt(kNumJoints);
-    EXPECT_NEAR(lever_arms_m[row], moved_m / (2.0 * kStep), 1e-6) << row;
-  }
 }
 
 TEST(MeanDistanceToNearest, IsHowFarTheNearestIsMovedAway) {

@@ -172,17 +172,19 @@ TEST(BrokenInput, MotionCodebooksAreRefusedByInfo) {
   codebook.segments.setOnes(kSegmentRows, 3);
   codebook.rates.setOnes(kNumFeatures, 3);
   codebook.deviations.setOnes(kNumFeatures, 3);
+  codebook.accelerations = AccelerationModels::Zero(3);
   const fs::path path = ScratchDir() / "m.plmotion";
   WriteMotionCodebook(codebook, path);
   const std::string whole = FileText(path);
   std::string altered = whole, newer = whole;
   altered[whole.size() / 2] ^= 1;
-  newer[8] = 2;  // the version
-  ExpectRefusals("m.plmotion", whole, {"info {}"},
-                 {{"truncated", whole.substr(0, whole.size() / 2), ": is cut short"},
-                  {"altered", altered, ": is altered"},
-                  {"newer version", newer, ": has format version 2"},
-                  {"a dictionary's", Replaced(whole, "PLMOTN", "PLDICT"), ": is altered"}});
+  newer[8] = 3;  // the version
+  ExpectRefusals(
+      "m.plmotion", whole, {"info {}"},
+      {{"truncated", whole.substr(0, whole.size() / 2), ": is cut short"},
+       {"altered", altered, ": is altered"},
+       {"newer version", newer, ": has format version 3"},
+       {"a dictionary's", Replaced(whole, "PLMOTN", "PLDICT"), ": has format version 2"}});
 }
 
 TEST(BrokenInput, PicturesAreRefusedByInfo) {

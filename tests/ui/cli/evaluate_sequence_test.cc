@@ -22,7 +22,7 @@ using testing::RunProgram;
 using testing::ScratchDir;
 
 std::string Arguments(const std::filesystem::path& data) {
-  return "evaluate sequence --trials 07_05 --frames 14 --noise-px 3 --dictionary " +
+  return "evaluate sequence --trials 07_05 --train 01,05 --frames 14 --noise-px 3 --dictionary " +
          testing::SourcePath("data/default.pldict").string() + " --mocap " +
          (data / "mocap" / "cmu").string();
 }

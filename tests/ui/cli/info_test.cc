@@ -186,6 +186,7 @@ TEST(Info, ReadsTheTrainingRecordOfAMotionCodebook) {
   codebook.segments.setOnes(kSegmentRows, 3);
   codebook.rates.setOnes(kNumFeatures, 3);
   codebook.deviations.setOnes(kNumFeatures, 3);
+  codebook.accelerations = AccelerationModels::Zero(3);
   codebook.record.num_segments = 21;
   codebook.record.command = "poselift train --motion";
   WriteMotionCodebook(codebook, ScratchDir() / "by_content");

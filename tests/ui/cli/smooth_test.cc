@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "lift/poses_to_motion.h"
 #include "src/io/motion_file.h"
@@ -182,6 +183,68 @@ TEST(Plot, AnUnknownAngleIsRefusedWithTheNearestNames) {
                 .code,
             2);
   ExpectRefusal("plot absent.bvh --angles left_knee.flexion --out a.svg", "absent.bvh");
+}
+
+// The frames of poses.json, a line each.
+std::string WriteLines() {
+  WritePoses();
+  const json poses = json::parse(FileText(ScratchDir() / "poses.json"));
+  std::string lines;
+  for (const json& frame : poses["frames"]) lines += frame.dump() + "\n";
+  return WriteScratch("poses.jsonl", lines);
+}
+
+TEST(SmoothStream, JsonLinesComeOutInOrderWithGapsMarked) {
+  WriteLines();
+  const ProgramRun run =
+      RunProgram("smooth poses.jsonl --out smooth.jsonl --latency-s 0.1 --max-gap-s 0.2");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.out, "");
+  EXPECT_THAT(run.err, HasSubstr("40 frames, 0.1 s late; 9 filled, 9 not known"));
+  std::istringstream lines(FileText(ScratchDir() / "smooth.jsonl"));
+  std::string line;
+  for (int t = 0; t < 40; ++t) {
+    ASSERT_TRUE(std::getline(lines, line)) << t;
+    const FramePoses frame = ReadFramePosesLine(line, "smooth.jsonl", t + 1);
+    EXPECT_NEAR(*frame.time_s, t / 30.0, 1e-6);
+    const PersonPose& person = frame.people.at(0);
+    EXPECT_EQ(person.status, (t >= 5 && t <= 7) || (t >= 15 && t <= 20) ? "filled"
+                             : t >= 21 && t <= 29                       ? "not known"
+                                                                        : "ok")
+        << t;
+    if (person.status != "not known") {
+      EXPECT_NEAR(person.scale_px_per_m, 150.0, 1e-6);
+      EXPECT_TRUE(person.joints_in_cam_m.allFinite());
+    }
+  }
+  EXPECT_FALSE(std::getline(lines, line));
+}
+
+TEST(SmoothStream, ALineThatIsWrongIsNamed) {
+  std::string lines = FileText(WriteLines());
+  const size_t third = lines.find('\n', lines.find('\n') + 1) + 1;
+  WriteScratch("broken.jsonl", lines.substr(0, third) + "{\"people\": 3}\n");
+  ExpectRefusal("smooth broken.jsonl --out out.jsonl", "broken.jsonl:3");
+  WriteScratch("back.jsonl", lines.substr(0, third) + lines.substr(0, third));
+  ExpectRefusal("smooth back.jsonl --out out.jsonl", "back.jsonl:3");
+  WriteScratch("timeless.jsonl", "{\"people\": []}\n");
+  ExpectRefusal("smooth timeless.jsonl --out out.jsonl", "wanted its time, or the rate (--fps)");
+  EXPECT_EQ(RunProgram("smooth timeless.jsonl --out out.jsonl --fps 30").code, 0);
+  ExpectRefusal("smooth absent.jsonl --out out.jsonl", "cannot be opened");
+}
+
+TEST(SmoothStream, WhatLooksAtAllFramesIsRefused) {
+  WriteLines();
+  ExpectRefusal("smooth poses.jsonl --out out.jsonl --method butterworth", "wanted online");
+  ExpectRefusal("smooth poses.jsonl --out out.bvh", "for both or for neither");
+  ExpectRefusal("smooth poses.jsonl --out out.jsonl --lock-feet", "--lock-feet");
+}
+
+TEST(Smooth, OnlineIsAMethodForFilesToo) {
+  WritePoses();
+  const ProgramRun run = RunProgram("smooth poses.json --out out.json --method online");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("from earlier frames and 0.1 s of later ones"));
 }
 
 }  // namespace
