@@ -109,16 +109,24 @@ LocalPose MakeLocalPose(const MotionCodebook& codebook, const std::vector<Segmen
   mean.world_from_root = MeanRotation(poses, weights);
   mean.dofs = Eigen::VectorXd::Zero(kNumAngles);
   local.rate_rad_per_s = Eigen::VectorXd::Zero(kNumAngles);
+  local.acceleration = local.acceleration_deviation = Eigen::VectorXd::Zero(kNumAngles);
   PoseRows variances = PoseRows::Zero();  // within what each segment stands for
   for (size_t k = 0; k < views.size(); ++k) {
     const double weight = weights[static_cast<Eigen::Index>(k)];
     mean.dofs += weight * poses[k].dofs;
-    local.rate_rad_per_s +=
-        weight * codebook.rates.col(views[k].segment).head<kNumAngles>().cast<double>();
-    variances.head<kNumAngles>() +=
+    const auto angles_of = [&](const auto& columns) -> Eigen::VectorXd {
+      return columns.col(views[k].segment).template head<kNumAngles>().template cast<double>();
+    };
+    local.rate_rad_per_s += weight * angles_of(codebook.rates);
+    const Eigen::VectorXd acceleration = angles_of(codebook.accelerations.means);
+    local.acceleration += weight * acceleration;
+    local.acceleration_deviation +=
         weight *
-        codebook.deviations.col(views[k].segment).head<kNumAngles>().cast<double>().cwiseAbs2();
+        (acceleration.cwiseAbs2() + angles_of(codebook.accelerations.deviations).cwiseAbs2());
+    variances.head<kNumAngles>() += weight * angles_of(codebook.deviations).cwiseAbs2();
   }
+  local.acceleration_deviation =
+      (local.acceleration_deviation - local.acceleration.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
   Eigen::Matrix<double, kNumPoseRows, kNumPoseRows> covariance = variances.asDiagonal();
   for (size_t k = 0; k < views.size(); ++k) {
     const PoseRows difference = Difference(poses[k], mean);

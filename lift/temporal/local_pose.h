@@ -28,14 +28,16 @@ struct LocalPoseOptions {
 };
 
 // What the neighbours of a moment say of it: a local model of order zero, the
-// weighted mean and covariance of their middle poses, and the mean of how these
-// change. Weights as Eq. (7) of the motion paper,
+// weighted mean and covariance of their middle poses, and of how these change. Weights as Eq. (7)
+// of the motion paper,
 //   omega_k = exp(-(E_k - min E) / (2 h^2)), of sum 1.
 struct LocalPose {
   // In cam, the root at the origin. The whitening has 43 rows and knows nothing
   // of the root's place; its frame time is 1 s.
   PosePrediction prediction;
   Eigen::VectorXd rate_rad_per_s;  // of the 40 angles
+  // Their accelerations, rad/s^2, and the standard deviation of these.
+  Eigen::VectorXd acceleration, acceleration_deviation;
   // How far the neighbours are: sigma over least_sigma_rad. What they say of
   // rates is less sure by this factor.
   double doubt = 1.0;

@@ -21,6 +21,7 @@ namespace poselift {
 namespace {
 
 constexpr double kReferenceFrameTime_s = 1.0 / 30.0;
+constexpr double kUsualAcceleration = 10.0, kLeastAcceleration = 2.0;  // rad/s^2
 const std::vector<double> kChange = {-1.0, 1.0};
 const std::vector<double> kSecondDifference = {1.0, -2.0, 1.0};
 
@@ -62,7 +63,8 @@ class PieceProblem {
     AddPosePriors(evidence);
     AddScale(evidence.camera.scale_px_per_m);
     if (unknowns_.size() > 1 && evidence.local) AddRate(*evidence.local);
-    if (unknowns_.size() > 2) AddSecondDifferences();
+    if (unknowns_.size() > 2) AddSecondDifferences(local_before_);
+    local_before_ = evidence.local ? &*evidence.local : nullptr;
   }
 
   void HoldLast() {
@@ -189,18 +191,29 @@ class PieceProblem {
         nullptr, FromLast(1).dofs(), FromLast(0).dofs());
   }
 
-  void AddSecondDifferences() {
-    const double slower = root_rate_ * root_rate_ * root_rate_;
-    const auto add = [&](Eigen::Index size, double sigma, double* a, double* b, double* c) {
-      problem_.AddResidualBlock(MakeDifferenceCost(kSecondDifference, Constant(size, 0.0),
-                                                   Constant(size, 1.0 / (sigma * slower)))
-                                    .release(),
-                                nullptr, a, b, c);
-    };
+  // local: of the frame in the middle, or null.
+  void AddSecondDifferences(const LocalPose* local) {
     Unknowns &now = FromLast(0), &before = FromLast(1), &first = FromLast(2);
-    add(body_.num_dofs, options_.acceleration_sigma_rad, first.dofs(), before.dofs(), now.dofs());
-    add(4, options_.turn_sigma, first.rotation(), before.rotation(), now.rotation());
-    if (has_path_) add(3, options_.path_sigma_m, first.root(), before.root(), now.root());
+    const double slower = root_rate_ * root_rate_ * root_rate_;
+    const auto add = [&](const Eigen::VectorXd& target, const Eigen::VectorXd& sigmas, double* a,
+                         double* b, double* c) {
+      problem_.AddResidualBlock(
+          MakeDifferenceCost(kSecondDifference, target, (slower * sigmas).cwiseInverse()).release(),
+          nullptr, a, b, c);
+    };
+    Eigen::VectorXd expected = Constant(body_.num_dofs, 0.0);
+    Eigen::VectorXd sigmas = Constant(body_.num_dofs, options_.acceleration_sigma_rad);
+    if (local) {
+      expected = dt_s_ * dt_s_ * local->acceleration;
+      sigmas.array() *=
+          (local->acceleration_deviation.array() + kLeastAcceleration) / kUsualAcceleration;
+    }
+    add(expected, sigmas, first.dofs(), before.dofs(), now.dofs());
+    add(Constant(4, 0.0), Constant(4, options_.turn_sigma), first.rotation(), before.rotation(),
+        now.rotation());
+    if (has_path_)
+      add(Constant(3, 0.0), Constant(3, options_.path_sigma_m), first.root(), before.root(),
+          now.root());
   }
 
   const Articulation& body_;
@@ -210,6 +223,7 @@ class PieceProblem {
   double dt_s_;
   double root_rate_;
   bool has_path_ = false;
+  const LocalPose* local_before_ = nullptr;  // of the frame before the last
   ceres::EigenQuaternionManifold quaternions_;
   std::vector<std::unique_ptr<Unknowns>> unknowns_;
   ceres::Problem problem_;

@@ -28,12 +28,15 @@ struct SequenceRefinementOptions {
   // standard deviations (of all rows together) it counts less and less (Cauchy).
   double local_weight = 1.5;
   double local_loss = 15.0;
-  double rate_sigma_rad = 0.005;         // a frame's change, against the neighbours'
-  double acceleration_sigma_rad = 0.01;  // second difference of an angle
-  double turn_sigma = 0.005;             // of a coefficient of the root's quaternion
-  double path_sigma_m = 0.02;            // of the root's place, with 3D points
-  double log_scale_sigma = 0.01;         // to the start's scale, and from frame to frame
-  double limit_stiffness = 10.0;         // per radian beyond a dof's limits
+  double rate_sigma_rad = 0.005;  // a frame's change, against the neighbours'
+  // Second difference of an angle against the neighbours', where accelerations
+  // deviate by 10 rad/s^2, and in proportion to them elsewhere (to 2 rad/s^2 more:
+  // nothing is quite still). Against nought, and everywhere, without neighbours.
+  double acceleration_sigma_rad = 0.01;
+  double turn_sigma = 0.005;      // of a coefficient of the root's quaternion
+  double path_sigma_m = 0.02;     // of the root's place, with 3D points
+  double log_scale_sigma = 0.01;  // to the start's scale, and from frame to frame
+  double limit_stiffness = 10.0;  // per radian beyond a dof's limits
   double function_tolerance = 1e-4;
   int max_iterations = 30;
   // Long sequences are solved piece by piece: memory is that of a piece. Each is
@@ -71,7 +74,8 @@ struct RefinedFrame {
 //            + rho(|local whitening delta(q_t)|^2)                  (local_pose.h)
 //            + |q_t - q_t-1 - dt rate_t|^2 / rate_sigma^2
 //            + stiffness^2 |q_t beyond its limits|^2
-//            + |q_t - 2 q_t-1 + q_t-2|^2 / acceleration_sigma^2     angles, root
+//            + |q_t - 2 q_t-1 + q_t-2 - dt^2 a_t-1|^2 / acceleration_sigma_t^2
+//            + the root's second differences
 //
 // by Levenberg-Marquardt; the normal equations are a band, so the cost is linear
 // in frames.
