@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "lift/baselines/butterworth.h"
+#include "lift/body_smoothing.h"
 #include "src/forward_kinematics.h"
 #include "src/input_error.h"
 #include "src/level_camera.h"
@@ -83,16 +84,13 @@ void ExpectAccelerations(const Motion& start, const FrameSpan& span,
   options->turn_sigma = sigma(turn, 4.0, 1e-4);
 }
 
+// Of motions on the codebook's skeleton.
 class ModelSmoother {
  public:
   ModelSmoother(std::shared_ptr<const MotionCodebook> codebook, const ModelSmootherOptions& options)
       : codebook_(std::move(codebook)), options_(options) {}
 
   Motion Smooth(const Motion& motion, int max_gap_frames) const {
-    if (!IsOnSkeletonOf(*codebook_, motion.skeleton))
-      throw InputError(motion.skeleton.name,
-                       "found a skeleton that is not the motion model's, wanted a motion that "
-                       "poselift lifted; smooth others with --method butterworth");
     const SegmentViews views(*codebook_, AllJoints(), options_.views);
     Motion smooth = Start(motion, max_gap_frames);
     std::vector<bool> known;
@@ -165,18 +163,6 @@ std::string ModelSmootherOptions::Validate() const {
   return "";
 }
 
-bool IsOnSkeletonOf(const MotionCodebook& codebook, const Skeleton& skeleton) {
-  const Skeleton& a = codebook.skeleton;
-  const Skeleton& b = skeleton;
-  return std::equal(
-      a.bones.begin(), a.bones.end(), b.bones.begin(), b.bones.end(),
-      [](const Bone& x, const Bone& y) {
-        return x.name == y.name && x.rest_from_axis.isApprox(y.rest_from_axis, 1e-3) &&
-               std::equal(x.dofs.begin(), x.dofs.end(), y.dofs.begin(), y.dofs.end(),
-                          [](const Dof& d, const Dof& e) { return d.kind == e.kind; });
-      });
-}
-
 FeatureVector PoseNoise(const Motion& motion) {
   std::vector<std::vector<double>> of_angles(kNumAngles);
   std::vector<double> of_place, of_turn;
@@ -210,13 +196,15 @@ FeatureVector PoseNoise(const Motion& motion) {
   return noise;
 }
 
-MotionSmoother SmootherByModel(std::shared_ptr<const MotionCodebook> codebook,
+MotionSmoother SmootherByModel(std::shared_ptr<const MotionCodebook> codebook, MotionSmoother rest,
                                const ModelSmootherOptions& options) {
   if (const std::string error = options.Validate(); !error.empty()) throw InputError(error);
-  return [smoother = ModelSmoother(std::move(codebook), options)](const Motion& motion,
-                                                                  int max_gap_frames) {
+  const Skeleton body = codebook->skeleton;
+  const auto of_body = [smoother = ModelSmoother(std::move(codebook), options)](
+                           const Motion& motion, int max_gap_frames) {
     return smoother.Smooth(motion, max_gap_frames);
   };
+  return SmootherOfBody(body, of_body, std::move(rest));
 }
 
 }  // namespace poselift

@@ -30,14 +30,10 @@ struct ModelSmootherOptions {
 // (MakeLocalPose), and the answer is the MAP of the whole (SequenceRefinement).
 // Gaps are filled by the model.
 //
-// Offline: looks at all frames. The codebook stays with the smoother. Calling it
-// throws InputError for a motion on another skeleton than the codebook's (bones
-// may have other lengths), as motions of poselift have it.
-MotionSmoother SmootherByModel(std::shared_ptr<const MotionCodebook> codebook,
+// A motion may be on any skeleton that is a body: rest and errors as with
+// SmootherOfBody. Offline: looks at all frames. The codebook stays with the smoother.
+MotionSmoother SmootherByModel(std::shared_ptr<const MotionCodebook> codebook, MotionSmoother rest,
                                const ModelSmootherOptions& options = {});
-
-// Whether a motion on the skeleton can be smoothed so.
-bool IsOnSkeletonOf(const MotionCodebook& codebook, const Skeleton& skeleton);
 
 // Standard deviations of the rows of a pose's difference (MakePredictionCost) from
 // third differences over the frames, which hardly know motion but grow sqrt(20)

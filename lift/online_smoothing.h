@@ -12,9 +12,8 @@ namespace poselift {
 // A whole motion as a stream: its frames as they come out of an OnlineSmoother.
 // max_gap_frames goes before options.max_gap_s; of a longer gap the first frames
 // are filled, for nobody knew how long it would be. The codebook stays with the
-// smoother. Calling it throws InputError for a motion that is not on the
-// codebook's skeleton (IsOnSkeletonOf).
-MotionSmoother SmootherOnline(std::shared_ptr<const MotionCodebook> codebook,
+// smoother; rest and errors as with SmootherOfBody.
+MotionSmoother SmootherOnline(std::shared_ptr<const MotionCodebook> codebook, MotionSmoother rest,
                               const OnlineSmootherOptions& options = {});
 
 }  // namespace poselift

@@ -103,7 +103,9 @@ SequenceFilter Online(const Skeleton& skeleton,
               person.joints_in_cam_m = pose;
               motion.frames.push_back(ik.Solve(person, {}));
             }
-            const Motion smooth = SmootherOnline(codebook, {.latency_s = latency_s})(motion, 1000);
+            const MotionSmoother as_it_is = [](const Motion& plain, int) { return plain; };
+            const Motion smooth =
+                SmootherOnline(codebook, as_it_is, {.latency_s = latency_s})(motion, 1000);
             std::vector<Pose3> smoothed;
             for (const SkeletonPose& pose : smooth.frames)
               smoothed.push_back(kLevelFromCam.toRotationMatrix() * JointPositions(skeleton, pose));

@@ -14,6 +14,7 @@
 #include "lift/model_smoother.h"
 #include "lift/online_smoothing.h"
 #include "lift/temporal/motion_codebook_file.h"
+#include "src/body_map.h"
 
 namespace poselift::cli {
 namespace {
@@ -58,22 +59,25 @@ Smoothing OneEuro(const Motion&, const SmoothingOptions& options) {
                       filter.min_cutoff_hz, filter.beta)};
 }
 
-Smoothing ByModel(const std::shared_ptr<const MotionCodebook>& codebook) {
-  return {SmootherByModel(codebook),
+Smoothing ByModel(const Motion& motion, const SmoothingOptions& options) {
+  const auto codebook = ReadCodebook(options);
+  return {SmootherByModel(codebook, Butterworth(motion, options).smoother),
           fmt::format("motion model of {} segments, from all frames", codebook->NumSegments())};
 }
 
-// The model where the motion is on its skeleton.
+// The model where the skeleton is a body.
 Smoothing Auto(const Motion& motion, const SmoothingOptions& options) {
-  const auto codebook = ReadCodebook(options);
-  return IsOnSkeletonOf(*codebook, motion.skeleton) ? ByModel(codebook)
-                                                    : Butterworth(motion, options);
+  const std::string flaw = FindBody(motion.skeleton).flaw;
+  if (flaw.empty()) return ByModel(motion, options);
+  Smoothing smoothing = Butterworth(motion, options);
+  smoothing.summary += "; no motion model: " + flaw;
+  return smoothing;
 }
 
 // What a live stream would get, frame by frame.
-Smoothing Online(const Motion&, const SmoothingOptions& options) {
+Smoothing Online(const Motion& motion, const SmoothingOptions& options) {
   const auto codebook = ReadCodebook(options);
-  return {SmootherOnline(codebook, options.online),
+  return {SmootherOnline(codebook, OneEuro(motion, options).smoother, options.online),
           fmt::format("motion model of {} segments, from earlier frames and {:.3g} s of later ones",
                       codebook->NumSegments(), options.online.latency_s)};
 }
@@ -84,12 +88,11 @@ Smoothing FillAlone(GapFill fill, std::string summary) {
 }
 
 constexpr std::array kMethods = {
-    SmoothingMethod{"auto", "motion-model for poselift's own motions, butterworth for others",
-                    Auto},
-    SmoothingMethod{"motion-model", "what similar motions do; poses.json or poselift's own .amc",
-                    [](const Motion&, const SmoothingOptions& options) {
-                      return ByModel(ReadCodebook(options));
-                    }},
+    SmoothingMethod{"auto", "motion-model where the skeleton is a body's, else butterworth", Auto},
+    SmoothingMethod{"motion-model",
+                    "what similar motions do, on any skeleton of a body; the rest as "
+                    "butterworth",
+                    ByModel},
     SmoothingMethod{kOnlineMethod, "the same model on a stream, --latency-s late", Online},
     SmoothingMethod{"butterworth", "low-pass filter forward and backward", Butterworth},
     SmoothingMethod{"savitzky-golay", "local polynomials", SavitzkyGolayFilter},

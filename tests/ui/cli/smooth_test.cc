@@ -15,6 +15,7 @@
 #include "tests/support/broken_input.h"
 #include "tests/support/mutation.h"
 #include "tests/support/planted_walk.h"
+#include "tests/support/rig_skeleton.h"
 #include "tests/support/run_program.h"
 #include "tests/support/support.h"
 
@@ -64,7 +65,7 @@ TEST(Smooth, TakesTheJitterOutOfAMotionFile) {
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.err, "");
   EXPECT_THAT(run.out, HasSubstr("walk.bvh: 90 frames at 60 Hz, 1.5 s"));
-  EXPECT_THAT(run.out, HasSubstr("cutoff 6 Hz"));
+  EXPECT_THAT(run.out, HasSubstr("motion model of"));
   const json report = Report();
   EXPECT_EQ(report["frames"], 90);
   EXPECT_EQ(report["method"], "auto");
@@ -73,6 +74,33 @@ TEST(Smooth, TakesTheJitterOutOfAMotionFile) {
   EXPECT_TRUE(report["filled"].empty());
   EXPECT_FALSE(report.contains("feet"));
   EXPECT_EQ(ReadMotion(ScratchDir() / "smooth.bvh").frames.size(), 90u);
+}
+
+TEST(Smooth, ARigOfAnotherKindKeepsItsBonesAndChannels) {
+  const Motion rig = testing::OnRig(testing::PlantWalk(60, 0.6, 0.0).motion);
+  WriteMotion(rig, ScratchDir() / "rig.bvh");
+  const ProgramRun run = RunProgram("smooth rig.bvh --out smooth.bvh --json report.json");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("motion model of"));
+  const std::string before = FileText(ScratchDir() / "rig.bvh");
+  const std::string after = FileText(ScratchDir() / "smooth.bvh");
+  EXPECT_EQ(after.substr(0, after.find("MOTION")), before.substr(0, before.find("MOTION")));
+  const json report = Report();
+  EXPECT_LT(report["jitter_after_mm"].get<double>(),
+            0.5 * report["jitter_before_mm"].get<double>());
+  EXPECT_EQ(ReadMotion(ScratchDir() / "smooth.bvh").frames.size(), 60u);
+}
+
+TEST(Smooth, WhatIsNoBodyIsFilteredAndSaidSo) {
+  WriteWalk(40);
+  WriteScratch("crane.bvh",
+               testing::Replaced(FileText(ScratchDir() / "walk.bvh"), "rtibia", "jib"));
+  const ProgramRun run = RunProgram("smooth crane.bvh --out smooth.bvh");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("Butterworth filter"));
+  EXPECT_THAT(run.out, HasSubstr("no motion model: found no bone for right_knee"));
+  ExpectRefusal("smooth crane.bvh --method motion-model --out s.bvh",
+                "found no bone for right_knee");
 }
 
 TEST(Smooth, EveryMethodRunsAndTheSameBytesComeOut) {
@@ -134,10 +162,11 @@ TEST(Smooth, LocksFeet) {
 
 TEST(Smooth, SlowCamerasHaveALowerCutoff) {
   WriteWalk(40);
-  const ProgramRun run = RunProgram("smooth walk.bvh --fps 10 --out s.bvh");
+  const ProgramRun run = RunProgram("smooth walk.bvh --method butterworth --fps 10 --out s.bvh");
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("cutoff 2.5 Hz (a quarter of the frame rate)"));
-  ExpectRefusal("smooth walk.bvh --fps 10 --cutoff-hz 6 --out t.bvh", "cutoff");
+  ExpectRefusal("smooth walk.bvh --method butterworth --fps 10 --cutoff-hz 6 --out t.bvh",
+                "cutoff");
 }
 
 TEST(Smooth, SaysWhatIsWrongWithItsExitCode) {
