@@ -19,6 +19,51 @@ void RotateRows(int axis, double angle, Eigen::Matrix3d* rotation) {
   rotation->row(v) = s * row_u + c * rotation->row(v);
 }
 
+// The axis of each dof in world: the dofs behind it (applied after it) turn it.
+Eigen::Matrix3Xd AxesInWorld(const Skeleton& skeleton, const std::vector<int>& dof_starts,
+                             const SkeletonPose& pose, const BoneFrames& frames) {
+  Eigen::Matrix3Xd axes_in_world(3, pose.dofs.size());
+  for (size_t b = 0; b < skeleton.bones.size(); ++b) {
+    const Bone& bone = skeleton.bones[b];
+    Eigen::Matrix3d world_from_parent = pose.world_from_root.toRotationMatrix();
+    if (bone.parent >= 0) world_from_parent = frames.world_from_bone[bone.parent];
+    Eigen::Matrix3d outer = world_from_parent * bone.rest_from_axis;
+    for (int i = static_cast<int>(bone.dofs.size()) - 1; i >= 0; --i) {
+      const int d = dof_starts[b] + i;
+      const Dof& dof = bone.dofs[i];
+      if (dof.IsRotation()) {
+        axes_in_world.col(d) = outer.col(dof.Axis());
+        outer = outer * Eigen::AngleAxisd(pose.dofs[d], Eigen::Vector3d::Unit(dof.Axis())).matrix();
+      } else {
+        axes_in_world.col(d) = (world_from_parent * bone.rest_from_axis).col(dof.Axis());
+      }
+    }
+  }
+  return axes_in_world;
+}
+
+// dx/dq of a point fixed to a bone, 3 rows that are zero on entry.
+template <typename Rows>
+void DifferentiatePoint(const Skeleton& skeleton, const std::vector<int>& dof_starts,
+                        const Eigen::Matrix3Xd& axes_in_world, const SkeletonPose& pose,
+                        const BoneFrames& frames, int bone_of_point, const Eigen::Vector3d& x,
+                        Rows rows) {
+  rows.template leftCols<3>().setIdentity();
+  const Eigen::Vector3d from_root = x - pose.root_in_world_m;
+  for (int k = 0; k < 3; ++k) rows.col(3 + k) = Eigen::Vector3d::Unit(k).cross(from_root);
+  // A rotation moves what lies behind its bone's start; a point at a bone's
+  // start is not moved by that bone's rotations, and the cross product is 0.
+  for (int b = bone_of_point; b >= 0; b = skeleton.bones[b].parent) {
+    const Bone& bone = skeleton.bones[b];
+    const Eigen::Vector3d from_start = x - frames.start_in_world_m.col(b);
+    for (size_t i = 0; i < bone.dofs.size(); ++i) {
+      const int d = dof_starts[b] + static_cast<int>(i);
+      const Eigen::Vector3d axis = axes_in_world.col(d);
+      rows.col(6 + d) = bone.dofs[i].IsRotation() ? axis.cross(from_start) : axis;
+    }
+  }
+}
+
 }  // namespace
 
 void PlaceBone(const Skeleton& skeleton, int b, int first_dof, const SkeletonPose& pose,
@@ -81,49 +126,32 @@ Pose3 JointPositions(const Skeleton& skeleton, const SkeletonPose& pose) {
 
 void JointJacobian(const Skeleton& skeleton, const JointSites& sites, const SkeletonPose& pose,
                    const BoneFrames& frames, Eigen::MatrixXd* jacobian) {
-  const Eigen::Index num_bones = static_cast<Eigen::Index>(skeleton.bones.size());
   jacobian->setZero(3 * kNumJoints, 6 + pose.dofs.size());
-
-  // The axis of each dof in world: the dofs behind it (applied after it) turn it.
-  Eigen::Matrix3Xd axes_in_world(3, pose.dofs.size());
-  std::vector<int> dof_starts = skeleton.DofStarts();
-  for (Eigen::Index b = 0; b < num_bones; ++b) {
-    const Bone& bone = skeleton.bones[b];
-    Eigen::Matrix3d world_from_parent = pose.world_from_root.toRotationMatrix();
-    if (bone.parent >= 0) world_from_parent = frames.world_from_bone[bone.parent];
-    Eigen::Matrix3d outer = world_from_parent * bone.rest_from_axis;
-    for (int i = static_cast<int>(bone.dofs.size()) - 1; i >= 0; --i) {
-      const int d = dof_starts[b] + i;
-      const Dof& dof = bone.dofs[i];
-      if (dof.IsRotation()) {
-        axes_in_world.col(d) = outer.col(dof.Axis());
-        outer = outer * Eigen::AngleAxisd(pose.dofs[d], Eigen::Vector3d::Unit(dof.Axis())).matrix();
-      } else {
-        axes_in_world.col(d) = (world_from_parent * bone.rest_from_axis).col(dof.Axis());
-      }
-    }
-  }
-
+  const std::vector<int> dof_starts = skeleton.DofStarts();
+  const Eigen::Matrix3Xd axes_in_world = AxesInWorld(skeleton, dof_starts, pose, frames);
   for (int j = 0; j < kNumJoints; ++j) {
     if (sites[j].bone < 0) continue;
     const Eigen::Vector3d x = sites[j].at_tip ? frames.tip_in_world_m.col(sites[j].bone)
                                               : frames.start_in_world_m.col(sites[j].bone);
-    auto rows = jacobian->middleRows<3>(3 * j);
-    rows.leftCols<3>().setIdentity();
-    const Eigen::Vector3d from_root = x - pose.root_in_world_m;
-    for (int k = 0; k < 3; ++k) rows.col(3 + k) = Eigen::Vector3d::Unit(k).cross(from_root);
-    // A rotation moves what lies behind its bone's start; a joint at a bone's
-    // start is not moved by that bone's rotations, and the cross product is 0.
-    for (int b = sites[j].bone; b >= 0; b = skeleton.bones[b].parent) {
-      const Bone& bone = skeleton.bones[b];
-      const Eigen::Vector3d from_start = x - frames.start_in_world_m.col(b);
-      for (size_t i = 0; i < bone.dofs.size(); ++i) {
-        const int d = dof_starts[b] + static_cast<int>(i);
-        const Eigen::Vector3d axis = axes_in_world.col(d);
-        rows.col(6 + d) = bone.dofs[i].IsRotation() ? axis.cross(from_start) : axis;
-      }
-    }
+    DifferentiatePoint(skeleton, dof_starts, axes_in_world, pose, frames, sites[j].bone, x,
+                       jacobian->middleRows<3>(3 * j));
   }
+}
+
+void FrameJacobian(const Skeleton& skeleton, int bone, const Eigen::Vector3d& x_in_world_m,
+                   const SkeletonPose& pose, const BoneFrames& frames, Eigen::MatrixXd* jacobian) {
+  jacobian->setZero(6, 6 + pose.dofs.size());
+  const std::vector<int> dof_starts = skeleton.DofStarts();
+  const Eigen::Matrix3Xd axes_in_world = AxesInWorld(skeleton, dof_starts, pose, frames);
+  DifferentiatePoint(skeleton, dof_starts, axes_in_world, pose, frames, bone, x_in_world_m,
+                     jacobian->topRows<3>());
+  jacobian->block<3, 3>(3, 3).setIdentity();
+  for (int b = bone; b >= 0; b = skeleton.bones[b].parent)
+    for (size_t i = 0; i < skeleton.bones[b].dofs.size(); ++i) {
+      const int d = dof_starts[b] + static_cast<int>(i);
+      if (skeleton.bones[b].dofs[i].IsRotation())
+        jacobian->col(6 + d).tail<3>() = axes_in_world.col(d);
+    }
 }
 
 }  // namespace poselift

@@ -35,4 +35,9 @@ Pose3 JointPositions(const Skeleton& skeleton, const SkeletonPose& pose);
 void JointJacobian(const Skeleton& skeleton, const JointSites& sites, const SkeletonPose& pose,
                    const BoneFrames& frames, Eigen::MatrixXd* jacobian);
 
+// The same of a frame fixed to a bone, its origin at x, 6 x (6 + NumDofs): rows
+// are the origin (3) and a small rotation of the frame in world (3).
+void FrameJacobian(const Skeleton& skeleton, int bone, const Eigen::Vector3d& x_in_world_m,
+                   const SkeletonPose& pose, const BoneFrames& frames, Eigen::MatrixXd* jacobian);
+
 }  // namespace poselift

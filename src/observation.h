@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,19 @@ struct ObservedPoint {
   LabelState state = LabelState::kVisible;
 };
 
+// The pose of a tag that is fixed to a bone, measured in space. Its residual is
+//   [ (x_tag(q) - x) / sigma_m ;  log(R^T R_tag(q)) / sigma_rad ],
+// (R, x) = cam_from_tag, and (R_tag(q), x_tag(q)) where the pose q has it: the
+// bone's frame (Bone), with bone_from_tag behind it.
+struct ObservedBonePose {
+  std::string name;
+  std::string bone;
+  Eigen::Isometry3d bone_from_tag = Eigen::Isometry3d::Identity();  // metres
+  Eigen::Isometry3d cam_from_tag = Eigen::Isometry3d::Identity();   // metres
+  double sigma_m = 0.01;
+  double sigma_rad = 0.05;
+};
+
 // A camera without lens distortion: a point at (X, Y, Z) in cam is seen at
 // centre_px + focal_px (X, Y) / Z.
 struct Pinhole {
@@ -35,6 +49,8 @@ struct Pinhole {
 // All that is known about one person in one frame: what the lifter takes.
 struct Observation {
   std::vector<ObservedPoint> points;
+  // For what solves for joint angles; the dictionary's poses have no bones to turn.
+  std::vector<ObservedBonePose> bone_poses = {};
   std::optional<Pinhole> pinhole = std::nullopt;  // what took the picture, when it is known
 
   int Count(ObservedPoint::Kind kind) const;

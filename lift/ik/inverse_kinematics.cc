@@ -55,12 +55,13 @@ Eigen::VectorXd SquaredDistances(const Pose3& a_m, const Pose3& b_m,
   return (weights.array() > 0.0).select(squared, 0.0);
 }
 
-std::unique_ptr<ceres::CostFunction> MakeTargetCost(const Articulation& body, const Pose3& target_m,
-                                                    const Eigen::VectorXd& weights) {
+std::unique_ptr<ceres::CostFunction> MakeTargetCost(
+    const Articulation& body, const Pose3& target_m, const Eigen::VectorXd& weights,
+    const std::vector<ObservedBonePose>& bone_poses) {
   std::vector<TargetPoint> points;
   for (int j = 0; j < kNumJoints; ++j)
     if (weights[j] > 0.0) points.push_back({{{j, 1.0}}, target_m.col(j), std::sqrt(weights[j])});
-  return MakeSpaceCost(body, std::move(points), false);
+  return MakeSpaceCost(body, std::move(points), false, bone_poses);
 }
 
 IkResult BadInput(std::string message) {
@@ -152,6 +153,7 @@ IkResult InverseKinematics::Solve(const Pose3& target_in_world_m, const IkHints&
                     radius_m, reach_m_));
   IkHints local = hints;
   if (local.start) local.start->root_in_world_m -= middle_m;
+  for (ObservedBonePose& tag : local.bone_poses) tag.cam_from_tag.pretranslate(-middle_m);
 
   const Eigen::VectorXd rest_dofs = hints.rest_dofs.value_or(Eigen::VectorXd::Zero(body_.num_dofs));
   const DofSprings springs{.limits = limits_,
@@ -159,7 +161,7 @@ IkResult InverseKinematics::Solve(const Pose3& target_in_world_m, const IkHints&
                            .pull = options_.pull_m_per_rad,
                            .stiffness = kLimitStiffness_m_per_rad};
   PoseProblem problem(body_, Start(target_m, weights, springs, local), springs);
-  problem.AddPoseTerm(MakeTargetCost(body_, target_m, weights));
+  problem.AddPoseTerm(MakeTargetCost(body_, target_m, weights, local.bone_poses));
   const PoseProblemOutcome outcome =
       problem.Solve(options_.max_iterations, options_.function_tolerance);
 

@@ -5,10 +5,12 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lift/ik/articulation.h"
 #include "lift/ik/initial_pose.h"
 #include "lift/ik/pose_problem.h"
+#include "src/observation.h"
 #include "src/pose3.h"
 #include "src/skeleton.h"
 
@@ -53,11 +55,13 @@ struct IkHints {
   std::optional<SkeletonPose> start;
   // Where the weak pull leads; else to zero, the rest pose.
   std::optional<Eigen::VectorXd> rest_dofs;
+  // Tags, in the target's world. A joint of weight 1 counts as one known to 1 m.
+  std::vector<ObservedBonePose> bone_poses = {};
 };
 
 // Inverse kinematics, the problem (P2), Eq. (14) and (15), of the sparse
 // coding paper: the pose q whose joints f(q) are the normalised target y,
-//   min_q  sum_j w_j |f_j(q) - y_j|^2 + pull^2 |dofs - rest|^2,
+//   min_q  sum_j w_j |f_j(q) - y_j|^2 + tags + pull^2 |dofs - rest|^2,
 //   lower <= dofs <= upper,
 // over the root's position and rotation and the dofs. Angles never leave their
 // start by full turns: solves that start from each other are continuous in

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "src/forward_kinematics.h"
@@ -76,50 +78,121 @@ class ArticulatedCost : public ceres::CostFunction {
   // Of the latest evaluation.
   mutable Eigen::Matrix3Xd posed_m_;
   mutable Eigen::MatrixXd by_pose_;
-
- private:
   const Articulation& body_;
   mutable SkeletonPose pose_;
   mutable BoneFrames frames_;
+
+ private:
   mutable Eigen::MatrixXd joint_jacobian_;
 };
 
+// The rotation vector, at most half a turn long.
+Eigen::Vector3d LogOf(const Eigen::Matrix3d& rotation) {
+  const Eigen::AngleAxisd turn(rotation);
+  return turn.angle() * turn.axis();
+}
+
+// How log(R Exp(w)) changes with w at 0: the inverse of the right Jacobian at log R.
+Eigen::Matrix3d LogByTurn(const Eigen::Vector3d& log) {
+  const double angle = log.norm();
+  constexpr double kSmall = 1e-4;
+  const double c =
+      angle < kSmall ? 1.0 / 12.0 : 1.0 / (angle * angle) - 0.5 / (angle * std::tan(0.5 * angle));
+  Eigen::Matrix3d cross;
+  cross << 0.0, -log.z(), log.y(), log.z(), 0.0, -log.x(), -log.y(), log.x(), 0.0;
+  return Eigen::Matrix3d::Identity() + 0.5 * cross + c * cross * cross;
+}
+
+// A tag with its bone looked up.
+struct Tag {
+  int bone;
+  Eigen::Isometry3d bone_from_tag, world_from_tag;
+  double per_m, per_rad;  // 1 / sigma
+};
+
+std::vector<Tag> FindTags(const Articulation& body,
+                          const std::vector<ObservedBonePose>& bone_poses) {
+  std::vector<Tag> tags;
+  for (const ObservedBonePose& pose : bone_poses) {
+    const auto bone = body.skeleton.FindBone(pose.bone);
+    if (!bone)
+      throw std::invalid_argument("tag " + pose.name + ": the skeleton has no bone " + pose.bone);
+    if (!(pose.sigma_m > 0.0 && pose.sigma_rad > 0.0 && pose.bone_from_tag.matrix().allFinite() &&
+          pose.cam_from_tag.matrix().allFinite()))
+      throw std::invalid_argument("tag " + pose.name +
+                                  ": poses are finite, their sigmas more than 0");
+    tags.push_back(
+        {*bone, pose.bone_from_tag, pose.cam_from_tag, 1.0 / pose.sigma_m, 1.0 / pose.sigma_rad});
+  }
+  return tags;
+}
+
 class SpaceCost final : public ArticulatedCost {
  public:
-  SpaceCost(const Articulation& body, std::vector<TargetPoint> points, bool up_to_translation)
-      : ArticulatedCost(body, std::move(points), 3), up_to_translation_(up_to_translation) {}
+  SpaceCost(const Articulation& body, std::vector<TargetPoint> points, std::vector<Tag> tags,
+            bool up_to_translation)
+      : ArticulatedCost(body, std::move(points), 3),
+        tags_(std::move(tags)),
+        up_to_translation_(up_to_translation) {
+    for (const TargetPoint& point : points_) place_weights_.push_back(point.root_weight);
+    for (const Tag& tag : tags_) place_weights_.push_back(tag.per_m);
+    set_num_residuals(NumPlaceRows() + 3 * static_cast<int>(tags_.size()));
+  }
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
     PosePoints(parameters, jacobians != nullptr);
-    Eigen::Map<Eigen::Matrix3Xd> rows(residuals, 3, points_.size());
+    Eigen::Map<Eigen::Matrix3Xd> rows(residuals, 3, num_residuals() / 3);
     for (size_t i = 0; i < points_.size(); ++i)
       rows.col(i) = points_[i].root_weight * (posed_m_.col(i) - points_[i].x);
+    if (jacobians) DifferentiateByPose<3>(1.0);
+    for (size_t k = 0; k < tags_.size(); ++k) EvaluateTag(k, jacobians != nullptr, rows);
     if (up_to_translation_) Centre(rows);
     if (!jacobians) return true;
-    DifferentiateByPose<3>(1.0);
     if (up_to_translation_)
       for (auto column : by_pose_.colwise())
-        Centre(Eigen::Map<Eigen::Matrix3Xd>(column.data(), 3, points_.size()));
+        Centre(Eigen::Map<Eigen::Matrix3Xd>(column.data(), 3, num_residuals() / 3));
     WritePoseJacobians(jacobians);
     return true;
   }
 
  private:
-  // Of rows r_i = u_i d_i with root weights u_i, takes u_i times the weighted
-  // mean of the d off each.
+  int NumPlaceRows() const { return 3 * static_cast<int>(place_weights_.size()); }
+
+  void EvaluateTag(size_t k, bool with_jacobian, Eigen::Map<Eigen::Matrix3Xd> rows) const {
+    const Tag& tag = tags_[k];
+    const Eigen::Matrix3d& world_from_bone = frames_.world_from_bone[tag.bone];
+    const Eigen::Vector3d x_m =
+        frames_.start_in_world_m.col(tag.bone) + world_from_bone * tag.bone_from_tag.translation();
+    const Eigen::Matrix3d R = world_from_bone * tag.bone_from_tag.linear();
+    const Eigen::Vector3d log = LogOf(tag.world_from_tag.linear().transpose() * R);
+    const size_t place = points_.size() + k, turn = place_weights_.size() + k;
+    rows.col(place) = tag.per_m * (x_m - tag.world_from_tag.translation());
+    rows.col(turn) = tag.per_rad * log;
+    if (!with_jacobian) return;
+    FrameJacobian(body_.skeleton, tag.bone, x_m, pose_, frames_, &frame_jacobian_);
+    by_pose_.middleRows<3>(3 * place) = tag.per_m * frame_jacobian_.topRows<3>();
+    by_pose_.middleRows<3>(3 * turn).noalias() =
+        (tag.per_rad * LogByTurn(log) * R.transpose()) * frame_jacobian_.bottomRows<3>();
+  }
+
+  // Of rows r_i = u_i d_i of place with root weights u_i, takes u_i times the
+  // weighted mean of the d off each.
   void Centre(Eigen::Map<Eigen::Matrix3Xd> rows) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double total_weight = 0.0;
-    for (size_t i = 0; i < points_.size(); ++i) {
-      sum += points_[i].root_weight * rows.col(i);
-      total_weight += points_[i].root_weight * points_[i].root_weight;
+    for (size_t i = 0; i < place_weights_.size(); ++i) {
+      sum += place_weights_[i] * rows.col(i);
+      total_weight += place_weights_[i] * place_weights_[i];
     }
-    for (size_t i = 0; i < points_.size(); ++i)
-      rows.col(i) -= points_[i].root_weight * (sum / total_weight);
+    for (size_t i = 0; i < place_weights_.size(); ++i)
+      rows.col(i) -= place_weights_[i] * (sum / total_weight);
   }
 
+  std::vector<Tag> tags_;
+  std::vector<double> place_weights_;  // of the points, then of the tags
   bool up_to_translation_;
+  mutable Eigen::MatrixXd frame_jacobian_;
 };
 
 class ReprojectionCost final : public ArticulatedCost {
@@ -209,10 +282,11 @@ class SpringCost final : public ceres::CostFunction {
 
 }  // namespace
 
-std::unique_ptr<ceres::CostFunction> MakeSpaceCost(const Articulation& body,
-                                                   std::vector<TargetPoint> points,
-                                                   bool up_to_translation) {
-  return std::make_unique<SpaceCost>(body, std::move(points), up_to_translation);
+std::unique_ptr<ceres::CostFunction> MakeSpaceCost(
+    const Articulation& body, std::vector<TargetPoint> points, bool up_to_translation,
+    const std::vector<ObservedBonePose>& bone_poses) {
+  return std::make_unique<SpaceCost>(body, std::move(points), FindTags(body, bone_poses),
+                                     up_to_translation);
 }
 
 std::unique_ptr<ceres::CostFunction> MakeReprojectionCost(const Articulation& body,

@@ -9,6 +9,7 @@
 #include "lift/ik/articulation.h"
 #include "lift/pose_prior.h"
 #include "src/layout.h"
+#include "src/observation.h"
 
 namespace ceres {
 class CostFunction;
@@ -35,12 +36,15 @@ struct TargetPoint {
   double root_weight = 1.0;  // the square root of the weight: 1 / sigma
 };
 
-// root_weight_i (m_i f(q) - x_i), 3 rows a point. With up_to_translation the
-// weighted mean of the differences is taken off each: that is the best common
-// shift, solved for exactly.
-std::unique_ptr<ceres::CostFunction> MakeSpaceCost(const Articulation& body,
-                                                   std::vector<TargetPoint> points,
-                                                   bool up_to_translation);
+// root_weight_i (m_i f(q) - x_i), 3 rows a point, then the residuals of tags
+// (observation.h; cam is the world), 3 rows of place each, then 3 of rotation.
+// With up_to_translation the weighted mean of the differences of place is taken off
+// each: that is the best common shift, solved for exactly. Throws
+// std::invalid_argument for a tag on a bone that the skeleton lacks, or whose poses
+// or sigmas are none.
+std::unique_ptr<ceres::CostFunction> MakeSpaceCost(
+    const Articulation& body, std::vector<TargetPoint> points, bool up_to_translation,
+    const std::vector<ObservedBonePose>& bone_poses = {});
 
 // root_weight_i (s (m_i f(q))_xy + t - x_i), 2 rows a point: the weak
 // perspective camera; the pose's world is `cam`.

@@ -197,7 +197,8 @@ RefinementResult PoseRefinement::Solve(const Pose3& code_in_cam_m, const Observa
     problem.AddPoseTerm(
         MakeSpaceCost(body, CodePoints(code_in_cam_m, body.sites, options_.gamma_per_m2), false));
   if (!prior_.Empty()) problem.AddDofsTerm(MakePriorCost(body, prior_));
-  if (!seen_m.empty()) problem.AddPoseTerm(MakeSpaceCost(body, seen_m, true));
+  if (!seen_m.empty() || !observation.bone_poses.empty())
+    problem.AddPoseTerm(MakeSpaceCost(body, seen_m, true, observation.bone_poses));
   double log_start_scale = 0.0;
   if (!seen_px.empty()) {
     const WeakCamera camera = FitCamera(seen_px, JointPositions(body, problem.pose()));

@@ -73,12 +73,14 @@ std::unique_ptr<ceres::CostFunction> MakePredictionCost(const PosePrediction& pr
 }
 
 SkeletonPose MostProbablePose(const Articulation& body, const PosePrediction& prediction,
-                              const std::vector<TargetPoint>& observed, double frame_time_s) {
+                              const std::vector<TargetPoint>& observed, double frame_time_s,
+                              const std::vector<ObservedBonePose>& bone_poses) {
   const DofLimits none(body, /*enforce=*/false);
   PoseProblem problem(body, prediction.pose,
                       {.limits = none, .rest = Eigen::VectorXd::Zero(body.num_dofs)});
   problem.AddPoseTerm(MakePredictionCost(prediction, frame_time_s));
-  if (!observed.empty()) problem.AddPoseTerm(MakeSpaceCost(body, observed, false));
+  if (!observed.empty() || !bone_poses.empty())
+    problem.AddPoseTerm(MakeSpaceCost(body, observed, false, bone_poses));
   const bool solved = IsUsable(problem.Solve(kMaxIterations, kFunctionTolerance).status);
   return solved ? problem.pose() : prediction.pose;
 }

@@ -31,9 +31,11 @@ std::unique_ptr<ceres::CostFunction> MakePredictionCost(const PosePrediction& pr
                                                         double frame_time_s);
 
 // E_prior and E_likelihood, Eq. (2) and (11), by Levenberg-Marquardt from the mean:
-//   argmin_q  sum_k |m_k f(q) - c_k|^2 / sigma_k^2 + |whitening delta(q)|^2
-// The mean where the solver breaks down.
+//   argmin_q  sum_k |m_k f(q) - c_k|^2 / sigma_k^2 + tags + |whitening delta(q)|^2
+// bone_poses: the tags (observation.h), in the world of the poses. The mean where
+// the solver breaks down.
 SkeletonPose MostProbablePose(const Articulation& body, const PosePrediction& prediction,
-                              const std::vector<TargetPoint>& observed, double frame_time_s);
+                              const std::vector<TargetPoint>& observed, double frame_time_s,
+                              const std::vector<ObservedBonePose>& bone_poses = {});
 
 }  // namespace poselift

@@ -112,8 +112,8 @@ class PieceProblem {
   void AddBlocks(const FrameEvidence& evidence) {
     Unknowns& now = FromLast(0);
     problem_.AddParameterBlock(now.root(), 3);
-    if (evidence.observation.Count(ObservedPoint::Kind::k3D) == 0 && !evidence.measured &&
-        !has_path_)
+    if (evidence.observation.Count(ObservedPoint::Kind::k3D) == 0 &&
+        evidence.observation.bone_poses.empty() && !evidence.measured && !has_path_)
       problem_.SetParameterBlockConstant(now.root());
     else
       has_path_ = true;
@@ -136,7 +136,9 @@ class PieceProblem {
     if (!in_picture.empty())
       problem_.AddResidualBlock(MakeReprojectionCost(body_, std::move(in_picture)).release(),
                                 nullptr, now.root(), now.rotation(), now.dofs(), now.camera.data());
-    if (!in_space.empty()) AddPoseTerm(MakeSpaceCost(body_, std::move(in_space), false), nullptr);
+    if (!in_space.empty() || !observation.bone_poses.empty())
+      AddPoseTerm(MakeSpaceCost(body_, std::move(in_space), false, observation.bone_poses),
+                  nullptr);
   }
 
   void AddPosePriors(const FrameEvidence& evidence) {

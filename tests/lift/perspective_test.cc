@@ -37,7 +37,7 @@ WeakCamera CameraOf(const Eigen::Vector3d& pelvis_in_cam_m) {
 }
 
 Observation Observe(const Pose3& joints_in_cam_m, const Eigen::Vector3d& pelvis_in_cam_m) {
-  Observation observation{{}, kPinhole};
+  Observation observation{{}, {}, kPinhole};
   for (const Landmark& landmark : FindLayout("body15")->landmarks) {
     ObservedPoint point{.name = std::string(landmark.name), .parts = landmark.parts, .sigma = 4.0};
     point.x << Seen(pelvis_in_cam_m + SumOfJoints(point.parts, joints_in_cam_m)), 0.0;

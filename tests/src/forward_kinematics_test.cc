@@ -100,5 +100,36 @@ TEST(ForwardKinematics, JacobianEqualsCentralDifferences) {
   }
 }
 
+TEST(ForwardKinematics, FrameJacobianEqualsCentralDifferences) {
+  auto rng = TestRng();
+  const Eigen::Vector3d x_in_bone_m(0.1, -0.3, 0.2);
+  for (int trial = 0; trial < 5; ++trial) {
+    const Skeleton skeleton = RandomSkeleton(&rng);
+    const SkeletonPose pose = RandomPose(skeleton, &rng);
+    const int bone = static_cast<int>(skeleton.bones.size()) - 1 - trial;
+    const auto place = [&](const SkeletonPose& at, Eigen::Matrix3d* rotation) -> Eigen::Vector3d {
+      BoneFrames frames;
+      ForwardKinematics(skeleton, at, &frames);
+      *rotation = frames.world_from_bone[bone];
+      return frames.start_in_world_m.col(bone) + *rotation * x_in_bone_m;
+    };
+    BoneFrames frames;
+    ForwardKinematics(skeleton, pose, &frames);
+    Eigen::Matrix3d R, ahead, behind;
+    Eigen::MatrixXd jacobian;
+    FrameJacobian(skeleton, bone, place(pose, &R), pose, frames, &jacobian);
+    Eigen::MatrixXd numeric(6, jacobian.cols());
+    const double h = 1e-6;
+    for (int c = 0; c < numeric.cols(); ++c) {
+      const Eigen::Vector3d moved_m =
+          place(Moved(pose, c, h), &ahead) - place(Moved(pose, c, -h), &behind);
+      const Eigen::Matrix3d turned = (ahead - behind) * R.transpose();
+      numeric.col(c) << moved_m / (2 * h),
+          Eigen::Vector3d(turned(2, 1), turned(0, 2), turned(1, 0)) / (2 * h);
+    }
+    EXPECT_TRUE(MatrixNear(jacobian, numeric, 1e-8));
+  }
+}
+
 }  // namespace
 }  // namespace poselift

@@ -12,9 +12,11 @@
 #include <cmath>
 #include <limits>
 
+#include "src/dof_angles.h"
 #include "src/input_error.h"
 #include "src/units.h"
 #include "tests/support/cmu_like_skeleton.h"
+#include "tests/support/planted_tag.h"
 #include "tests/support/random_pose.h"
 #include "tests/support/support.h"
 
@@ -57,6 +59,25 @@ SkeletonPose Walker(const Skeleton& skeleton) {
   DofOf(skeleton, "lradius", Dof::Kind::kRx, &pose) = 0.9;
   DofOf(skeleton, "rradius", Dof::Kind::kRx, &pose) = 0.6;
   return pose;
+}
+
+TEST(InverseKinematics, ATagTellsTheTwistThatJointsDoNot) {
+  const InverseKinematics ik(TrimmedCmuLikeSkeleton());
+  const Skeleton& skeleton = ik.body().skeleton;
+  SkeletonPose truth = Walker(skeleton);
+  DofOf(skeleton, "head", Dof::Kind::kRy, &truth) = 0.4;
+  const Pose3 joints_m = JointPositions(ik.body(), truth);
+  const int head = *skeleton.FindBone("head");
+  const auto error_rad = [&](const IkHints& hints) {
+    BoneFrames wanted, found;
+    ForwardKinematics(skeleton, truth, &wanted);
+    ForwardKinematics(skeleton, ik.Solve(joints_m, hints).pose, &found);
+    return AngleBetween(wanted.world_from_bone[head], found.world_from_bone[head]);
+  };
+  IkHints tagged;
+  tagged.bone_poses = {testing::PlantTag(skeleton, truth, "head")};
+  EXPECT_GT(error_rad({}), 0.1);
+  EXPECT_LT(error_rad(tagged), 1e-3);
 }
 
 // A few end in another minimum at the limits, some millimetres off.

@@ -49,6 +49,33 @@ std::vector<TargetPoint> SomePoints() {
           {{{joint::kUpperNeck, 0.4}, {joint::kHeadTop, 0.6}}, {0.0, -0.6, 0.3}, 3.0}};
 }
 
+// Two tags, turned and beside their bones, not where a pose has them.
+std::vector<ObservedBonePose> SomeTags(std::mt19937_64* rng) {
+  std::vector<ObservedBonePose> tags;
+  for (const char* bone : {"lradius", "rtibia"}) {
+    ObservedBonePose tag{.name = "tag", .bone = bone, .sigma_m = 0.7, .sigma_rad = 0.3};
+    for (Eigen::Isometry3d* pose : {&tag.bone_from_tag, &tag.cam_from_tag}) {
+      const Eigen::Vector3d turn_rad = 0.6 * RandomMatrix(3, 1, rng);
+      pose->linear() = Eigen::AngleAxisd(turn_rad.norm(), turn_rad.normalized()).toRotationMatrix();
+      pose->translation() = 0.2 * RandomMatrix(3, 1, rng);
+    }
+    tags.push_back(tag);
+  }
+  return tags;
+}
+
+// Where the pose has the tag.
+Eigen::Isometry3d WorldFromTag(const Articulation& body, const SkeletonPose& pose,
+                               const ObservedBonePose& tag) {
+  BoneFrames frames;
+  ForwardKinematics(body.skeleton, pose, &frames);
+  const int bone = *body.skeleton.FindBone(tag.bone);
+  Eigen::Isometry3d world_from_bone = Eigen::Isometry3d::Identity();
+  world_from_bone.linear() = frames.world_from_bone[bone];
+  world_from_bone.translation() = frames.start_in_world_m.col(bone);
+  return world_from_bone * tag.bone_from_tag;
+}
+
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // The analytic Jacobian of one block along its tangent against central
@@ -108,6 +135,11 @@ TEST(PoseCosts, JacobiansEqualDifferences) {
     const Blocks blocks = RandomBlocks(body, &rng);
     ExpectJacobiansAgree(*MakeSpaceCost(body, SomePoints(), false), blocks);
     ExpectJacobiansAgree(*MakeSpaceCost(body, SomePoints(), true), blocks);
+    for (const bool up_to_translation : {false, true}) {
+      ExpectJacobiansAgree(*MakeSpaceCost(body, {}, up_to_translation, SomeTags(&rng)), blocks);
+      ExpectJacobiansAgree(*MakeSpaceCost(body, SomePoints(), up_to_translation, SomeTags(&rng)),
+                           blocks);
+    }
     ExpectJacobiansAgree(*MakeReprojectionCost(body, SomePoints()), blocks);
   }
 }
@@ -151,6 +183,41 @@ TEST(PoseCosts, SpaceResidualIsTheWeightedDifferenceOfTheSummedJoints) {
   const Eigen::Vector3d mid_hip_m =
       0.5 * (joints_m.col(joint::kLeftHip) + joints_m.col(joint::kRightHip));
   EXPECT_TRUE(MatrixNear(residuals.segment<3>(3), 0.5 * (mid_hip_m - SomePoints()[1].x), 1e-14));
+}
+
+TEST(PoseCosts, TagResidualIsThePlaceAndTheRotationVectorOverTheirSigmas) {
+  auto rng = TestRng();
+  const Articulation body(TrimmedCmuLikeSkeleton());
+  const Blocks blocks = RandomBlocks(body, &rng);
+  ObservedBonePose tag = SomeTags(&rng)[0];
+  tag.cam_from_tag = WorldFromTag(body, blocks.pose, tag);
+  EXPECT_LT(Residuals(*MakeSpaceCost(body, {}, false, {tag}), blocks).norm(), 1e-12);
+  const Eigen::Vector3d shift_m(0.01, -0.02, 0.03), turn_rad(0.5, 0.3, -0.2);
+  tag.cam_from_tag.translation() -= shift_m;
+  tag.cam_from_tag.linear() *=
+      Eigen::AngleAxisd(-turn_rad.norm(), turn_rad.normalized()).toRotationMatrix();
+  Eigen::VectorXd expected(6);
+  expected << shift_m / tag.sigma_m, turn_rad / tag.sigma_rad;
+  EXPECT_TRUE(
+      MatrixNear(Residuals(*MakeSpaceCost(body, {}, false, {tag}), blocks), expected, 1e-12));
+  // Behind the points, and without a common shift: as these alone, and the rotation.
+  const Eigen::VectorXd all = Residuals(*MakeSpaceCost(body, SomePoints(), false, {tag}), blocks);
+  EXPECT_TRUE(MatrixNear(all.tail(6), expected, 1e-12));
+  const Eigen::VectorXd centred = Residuals(*MakeSpaceCost(body, {}, true, {tag}), blocks);
+  EXPECT_LT(centred.head(3).norm(), 1e-12);
+  EXPECT_TRUE(MatrixNear(centred.tail(3), expected.tail(3), 1e-12));
+}
+
+TEST(PoseCosts, TagsThatAreNoneAreRefused) {
+  auto rng = TestRng();
+  const Articulation body(TrimmedCmuLikeSkeleton());
+  const ObservedBonePose good = SomeTags(&rng)[0];
+  ObservedBonePose nowhere = good, sure = good, unknown = good;
+  nowhere.bone = "wing";
+  sure.sigma_rad = 0.0;
+  unknown.cam_from_tag.translation().x() = std::nan("");
+  for (const ObservedBonePose& bad : {nowhere, sure, unknown})
+    EXPECT_THROW(MakeSpaceCost(body, {}, false, {good, bad}), std::invalid_argument);
 }
 
 TEST(PoseCosts, UpToTranslationIgnoresACommonShiftAndIsTheLeastOverShifts) {

@@ -5,8 +5,10 @@
 #include <ceres/cost_function.h>
 #include <gtest/gtest.h>
 
+#include "src/dof_angles.h"
 #include "tests/support/cmu_like_skeleton.h"
 #include "tests/support/planted_pose.h"
+#include "tests/support/planted_tag.h"
 #include "tests/support/random_pose.h"
 #include "tests/support/support.h"
 
@@ -99,6 +101,44 @@ TEST(PosePrediction, TheTwoQuaternionsOfARotationAreOne) {
   const Eigen::VectorXd residuals = Residuals(*cost, pose);
   pose.world_from_root.coeffs() *= -1.0;
   EXPECT_TRUE(MatrixNear(Residuals(*cost, pose), residuals, 1e-12));
+}
+
+// From a mean far off that is hardly believed.
+SkeletonPose PoseFromTags(const SkeletonPose& truth, const std::vector<std::string>& bones,
+                          std::mt19937_64* rng) {
+  const Articulation body(TrimmedCmuLikeSkeleton());
+  std::vector<ObservedBonePose> tags;
+  for (const std::string& bone : bones)
+    tags.push_back(testing::PlantTag(body.skeleton, truth, bone));
+  const PosePrediction weak{Moved(truth, 0.2, rng),
+                            1e-3 * Eigen::MatrixXd::Identity(kNumFeatures, kNumFeatures)};
+  return MostProbablePose(body, weak, {}, kFrameTime_s, tags);
+}
+
+TEST(PosePrediction, TwoTagsTellTheElbowBetweenThem) {
+  auto rng = TestRng();
+  const Skeleton skeleton = TrimmedCmuLikeSkeleton();
+  for (int trial = 0; trial < 5; ++trial) {
+    SkeletonPose truth = RandomPoseWithinLimits(skeleton, 0.5, &rng);
+    SkeletonPose found = PoseFromTags(truth, {"lhumerus", "lradius"}, &rng);
+    EXPECT_NEAR(testing::DofOf(skeleton, "lradius", Dof::Kind::kRx, &found),
+                testing::DofOf(skeleton, "lradius", Dof::Kind::kRx, &truth), 1e-4);
+  }
+}
+
+TEST(PosePrediction, OneTagTellsThePlaceAndOrientationOfItsBone) {
+  auto rng = TestRng();
+  const Skeleton skeleton = TrimmedCmuLikeSkeleton();
+  const int bone = *skeleton.FindBone("rtibia");
+  BoneFrames in_truth, in_found;
+  for (int trial = 0; trial < 5; ++trial) {
+    const SkeletonPose truth = RandomPoseWithinLimits(skeleton, 0.5, &rng);
+    ForwardKinematics(skeleton, truth, &in_truth);
+    ForwardKinematics(skeleton, PoseFromTags(truth, {"rtibia"}, &rng), &in_found);
+    EXPECT_LT(AngleBetween(in_truth.world_from_bone[bone], in_found.world_from_bone[bone]), 1e-4);
+    EXPECT_TRUE(
+        MatrixNear(in_truth.start_in_world_m.col(bone), in_found.start_in_world_m.col(bone), 1e-4));
+  }
 }
 
 }  // namespace
