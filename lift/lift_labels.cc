@@ -6,7 +6,9 @@
 #include <atomic>
 #include <map>
 
+#include "lift/body_proportions.h"
 #include "lift/frame_span.h"
+#include "lift/normalize.h"
 #include "lift/poses_to_motion.h"
 #include "lift/temporal/frame_grid.h"
 #include "src/forward_kinematics.h"
@@ -206,11 +208,17 @@ LiftedLabels LiftLabelsOverTime(const SequenceLifter& lifter, const Skeleton& sk
       if (progress) progress((static_cast<double>(i) + part) / static_cast<double>(ids.size()));
     };
     LiftedSequence sequence = lifter.LiftSequence(track.observations, grid.frame_time_s, so_far);
-    const JointAngleReader angles(skeleton);
+    if (!sequence.body.covariance.isZero()) {
+      PersonBones bones = BonesOf(sequence.body, BoneLengths(skeleton));
+      bones.id = ids[i];
+      lifted.poses.bodies.push_back(std::move(bones));
+    }
+    const JointAngleReader angles(sequence.skeleton);
     Eigen::VectorXd angles_deg;  // of the frame before
     for (const auto& [frame, person, place] : track.labelled) {
       PersonPose& pose = lifted.poses.frames[frame].people[person];
-      pose = ToPersonPose(sequence.frames[place], track.observations[place], ids[i], skeleton);
+      pose = ToPersonPose(sequence.frames[place], track.observations[place], ids[i],
+                          sequence.skeleton);
       if (sequence.filled[place]) pose.status = kFilledStatus;
       if (sequence.frames[place].IsUsable()) {
         const SkeletonPose now = InWorld(sequence.frames[place].poses.front().pose);

@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "lift/choose_alternatives.h"
+#include "lift/normalize.h"
 #include "lift/perspective.h"
 #include "lift/point_curves.h"
 #include "src/forward_kinematics.h"
@@ -82,6 +83,19 @@ Eigen::Matrix3Xd PlacedPoints_m(const std::vector<ObservedPoint>& points, const 
   return placed_m;
 }
 
+bool AllPointsAre2D(const std::vector<Observation>& frames) {
+  return std::all_of(frames.begin(), frames.end(), [](const Observation& frame) {
+    return frame.Count(ObservedPoint::Kind::k3D) == 0;
+  });
+}
+
+// The joints of the pose on a skeleton, and what depends on them.
+void PutOn(const Skeleton& skeleton, const Observation& seen, LiftedPose* lifted) {
+  lifted->joints_in_cam_m = JointPositions(skeleton, lifted->pose);
+  if (seen.pinhole) lifted->pelvis_in_cam_m = PelvisInCam_m(*seen.pinhole, lifted->camera);
+  MeasureErrors(seen, lifted);
+}
+
 // A curve of points at any time: linear between frames, held at the ends.
 Eigen::Matrix3Xd PointsAt(const std::vector<Eigen::Matrix3Xd>& frames, double t) {
   const double last = static_cast<double>(frames.size() - 1);
@@ -118,6 +132,8 @@ struct SequenceLifter::Run {
   std::vector<LiftedPose> chosen;   // of its poses
   std::vector<double> scales_px_per_m;
   std::vector<LocalPose> local;
+  std::vector<FrameEvidence> evidence;
+  FrameSpan span;  // of the sequence
 };
 
 SequenceLifter::SequenceLifter(const PhotoLifter& lifter, const MotionCodebook& codebook,
@@ -141,29 +157,41 @@ LiftedSequence SequenceLifter::LiftSequence(const std::vector<Observation>& fram
   const int max_gap_frames = static_cast<int>(std::floor(options_.max_gap_s / frame_time_s));
   const std::vector<Observation> smooth =
       SmoothPoints(frames, frame_time_s, options_.label_cutoff_hz, max_gap_frames);
+  const Skeleton& standard = lifter_.dictionary().skeleton;
   LiftedSequence lifted{std::vector<LiftResult>(frames.size()),
-                        std::vector<bool>(frames.size(), false)};
+                        std::vector<bool>(frames.size(), false),
+                        {},
+                        standard};
   for (size_t t = 0; t < frames.size(); ++t) {
     lifted.frames[t].status = LiftStatus::kCannotLift;
     lifted.frames[t].message = CanLift(frames[t]);
   }
+  std::vector<Run> runs;
   for (const FrameSpan& span : RunsOf(smooth)) {
     const auto part = [&](const std::vector<Observation>& all) {
       return std::vector<Observation>(all.begin() + span.first, all.begin() + span.last + 1);
     };
-    Run run{frame_time_s, part(frames), part(smooth)};
+    Run run{.frame_time_s = frame_time_s, .seen = part(frames), .smooth = part(smooth)};
+    run.span = span;
     const auto so_far = [&](double share) {
       if (progress)
         progress((span.first + share * span.NumFrames()) / static_cast<double>(frames.size()));
     };
     if (!LiftEach(&run, so_far)) continue;
     FindLocalPoses(&run);
-    std::vector<LiftedPose> together = Refine(run);
+    GatherEvidence(&run);
+    runs.push_back(std::move(run));
+  }
+  if (options_.find_proportions && AllPointsAre2D(frames)) lifted.body = FindProportions(&runs);
+  lifted.skeleton = WithProportions(standard, lifted.body.log_ratios);
+  for (Run& run : runs) {
+    std::vector<LiftedPose> together = Refine(run, lifted.skeleton, lifted.body.log_ratios);
     for (size_t i = 0; i < together.size(); ++i) {
-      const size_t t = i + static_cast<size_t>(span.first);
+      const size_t t = i + static_cast<size_t>(run.span.first);
       lifted.filled[t] = !CanLift(frames[t]).empty();
       lifted.frames[t] = std::move(run.alone[i]);
       auto& poses = lifted.frames[t].poses;
+      for (LiftedPose& alternative : poses) PutOn(lifted.skeleton, run.seen[i], &alternative);
       poses.insert(poses.begin(), std::move(together[i]));
     }
   }
@@ -222,26 +250,46 @@ void SequenceLifter::FindLocalPoses(Run* run) const {
     run->local.push_back(MakeLocalPose(codebook_, near, options_.depth_weight, options_.local));
 }
 
-std::vector<LiftedPose> SequenceLifter::Refine(const Run& run) const {
-  const Skeleton& skeleton = lifter_.dictionary().skeleton;
-  std::vector<FrameEvidence> evidence;
-  for (size_t t = 0; t < run.seen.size(); ++t) {
-    const LiftedPose& chosen = run.chosen[t];
-    FrameEvidence& frame = evidence.emplace_back();
-    frame.observation = run.seen[t].pinhole
-                            ? AsWeakPerspective(run.seen[t], chosen.joints_in_cam_m, chosen.camera)
-                            : run.seen[t];
+void SequenceLifter::GatherEvidence(Run* run) const {
+  for (size_t t = 0; t < run->seen.size(); ++t) {
+    const LiftedPose& chosen = run->chosen[t];
+    FrameEvidence& frame = run->evidence.emplace_back();
+    frame.observation = run->seen[t].pinhole
+                            ? AsWeakPerspective(run->seen[t], chosen.joints_in_cam_m, chosen.camera)
+                            : run->seen[t];
     frame.start = chosen.pose;
-    TakeAnglesNearestToRest(skeleton, &frame.start);
-    frame.start.root_in_world_m = MeanShift_m(run.seen[t], chosen.joints_in_cam_m);
+    TakeAnglesNearestToRest(lifter_.dictionary().skeleton, &frame.start);
+    frame.start.root_in_world_m = MeanShift_m(run->seen[t], chosen.joints_in_cam_m);
     frame.camera = chosen.camera;
     frame.camera.translation_px -=
         chosen.camera.scale_px_per_m * frame.start.root_in_world_m.head<2>();
-    frame.camera.scale_px_per_m = run.scales_px_per_m[t];
+    frame.camera.scale_px_per_m = run->scales_px_per_m[t];
     frame.lifted_in_cam_m = chosen.joints_in_cam_m;
-    frame.local = run.local[t];
+    frame.local = run->local[t];
   }
-  const std::vector<RefinedFrame> refined = refinement_.Solve(evidence, run.frame_time_s);
+}
+
+// Of all runs, each starting with what those before it have found. Leaves in the
+// evidence where the poses went, and the scales at the size of the standard skeleton.
+BodyProportions SequenceLifter::FindProportions(std::vector<Run>* runs) const {
+  BodyProportions body = ProportionPrior();
+  for (Run& run : *runs) {
+    const auto refined = refinement_.SolveWithProportions(run.evidence, run.frame_time_s, &body);
+    for (size_t t = 0; t < refined.size(); ++t) {
+      run.evidence[t].start = refined[t].pose;
+      run.evidence[t].camera.translation_px = refined[t].camera.translation_px;
+    }
+  }
+  const Eigen::VectorXd standard_lengths_m = BoneLengths(lifter_.dictionary().skeleton);
+  const double stature = std::exp(LogStature(body.log_ratios, standard_lengths_m));
+  for (Run& run : *runs)
+    for (FrameEvidence& frame : run.evidence) frame.camera.scale_px_per_m *= stature;
+  return AtEqualStature(body, standard_lengths_m);
+}
+
+std::vector<LiftedPose> SequenceLifter::Refine(const Run& run, const Skeleton& skeleton,
+                                               const GroupVector& log_ratios) const {
+  const auto refined = refinement_.Solve(run.evidence, run.frame_time_s, log_ratios);
   std::vector<LiftedPose> together;
   for (size_t t = 0; t < refined.size(); ++t) {
     LiftedPose& lifted = together.emplace_back(run.chosen[t]);
@@ -250,10 +298,7 @@ std::vector<LiftedPose> SequenceLifter::Refine(const Run& run) const {
     lifted.camera.translation_px +=
         lifted.camera.scale_px_per_m * lifted.pose.root_in_world_m.head<2>();
     lifted.pose.root_in_world_m.setZero();
-    lifted.joints_in_cam_m = JointPositions(skeleton, lifted.pose);
-    if (run.seen[t].pinhole)
-      lifted.pelvis_in_cam_m = PelvisInCam_m(*run.seen[t].pinhole, lifted.camera);
-    MeasureErrors(run.seen[t], &lifted);
+    PutOn(skeleton, run.seen[t], &lifted);
   }
   return together;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lift/body_proportions.h"
 #include "lift/frame_span.h"
 #include "lift/lift_photo.h"
 #include "lift/temporal/local_pose.h"
@@ -23,6 +24,9 @@ struct LiftSequenceOptions {
   SegmentViewsOptions views;
   LocalPoseOptions local;
   SequenceRefinementOptions refinement;
+  // Whether the proportions of the body are found out, where all points are 2D; else
+  // they are the standard ones.
+  bool find_proportions = true;
 
   std::string Validate() const;  // empty, or which option is wrong and why
 };
@@ -32,6 +36,10 @@ struct LiftedSequence {
   // it come the alternatives of the frame by itself.
   std::vector<LiftResult> frames;
   std::vector<bool> filled;  // there were too few labels for the frame alone
+  // One body in all poses of all frames. There is a covariance where its proportions
+  // were found out.
+  BodyProportions body;
+  Skeleton skeleton;  // of these proportions, as tall as the standard one
 };
 
 // From the observed points of one person in the frames of a video to poses that
@@ -56,7 +64,10 @@ class SequenceLifter {
   struct Run;
   bool LiftEach(Run* run, const ProgressFn& progress) const;
   void FindLocalPoses(Run* run) const;
-  std::vector<LiftedPose> Refine(const Run& run) const;
+  void GatherEvidence(Run* run) const;
+  BodyProportions FindProportions(std::vector<Run>* runs) const;
+  std::vector<LiftedPose> Refine(const Run& run, const Skeleton& skeleton,
+                                 const GroupVector& log_ratios) const;
 
   const PhotoLifter& lifter_;
   const MotionCodebook& codebook_;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lift/body_proportions.h"
 #include "lift/person_ik.h"
 #include "lift/pose_to_person.h"
 #include "lift/temporal/frame_grid.h"
@@ -37,6 +38,12 @@ int FindPerson(const Poses& poses, const std::optional<int>& wanted) {
   if (ids.empty()) throw InputError("found poses without any person, wanted at least one");
   throw InputError(
       fmt::format("found no person {}, wanted one of {}", *wanted, fmt::join(ids, ", ")));
+}
+
+std::optional<PersonBones> BonesOf(const Poses& poses, int person_id) {
+  for (const PersonBones& body : poses.bodies)
+    if (body.id == person_id) return body;
+  return std::nullopt;
 }
 
 // The person in each frame if there is a pose of theirs, else null.
@@ -172,12 +179,14 @@ PosesMotion PosesToMotion(const Poses& poses, const Skeleton& skeleton,
                           const PosesToMotionOptions& options, const ProgressFn& progress) {
   PosesMotion result;
   result.person_id = FindPerson(poses, options.person_id);
+  result.bones = BonesOf(poses, result.person_id);
+  const Skeleton own = result.bones ? WithBoneLengths(skeleton, result.bones->lengths_m) : skeleton;
   const std::vector<const PersonPose*> people =
       FramesOf(poses, result.person_id, options.with_filled);
   const std::vector<double> times_s = TimesOf(poses, options.frame_time_s);
   const FrameGrid grid = FitFrameGrid(times_s);
   result.camera = FindCamera(people);
-  PlaceOnGrid(SolveFrames(people, skeleton, progress, &result), times_s, grid, skeleton, &result);
+  PlaceOnGrid(SolveFrames(people, own, progress, &result), times_s, grid, own, &result);
   StandOnFloor(&result);
 
   Polyline scales_px_per_m;
@@ -202,6 +211,7 @@ Poses MotionToPoses(const Motion& motion, const PosesMotion& source,
     throw std::invalid_argument("MotionToPoses: a status for each frame is wanted");
   PoseToPerson to_person(motion.skeleton, source.camera);
   Poses poses;
+  if (source.bones) poses.bodies.push_back(*source.bones);
   for (size_t f = 0; f < motion.frames.size(); ++f) {
     FramePoses& frame = poses.frames.emplace_back();
     if (f < source.images.size()) frame.image = source.images[f];

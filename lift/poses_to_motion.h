@@ -43,7 +43,8 @@ inline constexpr std::string_view kUnknownMessage = "in a gap that is too long t
 struct PosesMotion {
   Motion motion;  // unknown frames where the person has no pose
   int person_id = 0;
-  bool is_resampled = false;  // the times' steps were uneven: resampled to the median step
+  std::optional<PersonBones> bones;  // of the skeleton, where the poses tell them
+  bool is_resampled = false;         // the times' steps were uneven: resampled to the median step
   // Of each frame of the motion: its frame in the poses (-1: there is none), its
   // time (none when frame_time_s was given) and its picture (may be empty).
   std::vector<int> source_frames;
@@ -55,7 +56,8 @@ struct PosesMotion {
   int num_ik_failures = 0;      // poses that no skeleton fits: unknown frames too
 };
 
-// Joint angles by inverse kinematics, each frame from the one before.
+// Joint angles by inverse kinematics, each frame from the one before, on the
+// skeleton, with the person's own lengths where the poses have them.
 // Throws InputError when there is no such person, when no frame of theirs is
 // ok, or when the times are no times (frame_grid.h) or missing.
 PosesMotion PosesToMotion(const Poses& poses, const Skeleton& skeleton,

@@ -58,8 +58,16 @@ struct FramePoses {
   std::vector<PersonPose> people;
 };
 
+// The bones of a person, the same in all frames, by the joints at their ends.
+struct PersonBones {
+  int id = 0;
+  Eigen::VectorXd lengths_m;  // 23, 0 for the pelvis
+  Eigen::VectorXd sigmas_m;   // their standard deviations at this stature
+};
+
 struct Poses {
   std::vector<FramePoses> frames;
+  std::vector<PersonBones> bodies;  // of people whose proportions were found out
 };
 
 }  // namespace poselift

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <exception>
 #include <iterator>
 #include <random>
@@ -59,6 +60,22 @@ std::vector<SkeletonPose> PosesOf(const std::vector<Pose3>& joints_in_cam_m,
   return poses;
 }
 
+// Of each bone, mean over the frames.
+Eigen::VectorXd MeanLengths_m(const std::vector<Pose3>& joints_in_cam_m) {
+  Eigen::VectorXd lengths_m = Eigen::VectorXd::Zero(kNumJoints);
+  for (const Pose3& pose : joints_in_cam_m)
+    for (int j = 1; j < kNumJoints; ++j)
+      lengths_m[j] += (pose.col(j) - pose.col(Joints()[j].parent)).norm();
+  return lengths_m / static_cast<double>(joints_in_cam_m.size());
+}
+
+GroupVector BoneErrors_percent(const std::vector<Pose3>& estimate,
+                               const std::vector<Pose3>& truth) {
+  const Eigen::VectorXd lengths_m = MeanLengths_m(truth);
+  const GroupVector log_ratios = LogRatios(MeanLengths_m(estimate), lengths_m);
+  return 100.0 * ((log_ratios.array() - LogStature(log_ratios, lengths_m)).exp() - 1.0);
+}
+
 SequenceEvaluation Measure(std::string method, const std::vector<Pose3>& joints_in_cam_m, double ms,
                            const Case& of, const InverseKinematics& ik) {
   const std::vector<Pose3>& truth = of.view.joints_in_cam_m;
@@ -78,6 +95,8 @@ SequenceEvaluation Measure(std::string method, const std::vector<Pose3>& joints_
   row.errors[measure::kMsPerFrame] = ms;
   row.errors /= static_cast<double>(truth.size());
   row.errors[measure::kJitter_mm] = Jitter_mm(joints_in_cam_m, truth);
+  row.bones_percent = BoneErrors_percent(joints_in_cam_m, truth);
+  row.errors[measure::kBones_percent] = std::sqrt(row.bones_percent.squaredNorm() / kNumBoneGroups);
   row.errors[measure::kLag_frames] = Lag_frames(joints_in_cam_m, truth);
   return row;
 }
@@ -111,7 +130,8 @@ void Require(const std::vector<SequenceTrial>& trials, const EvaluateSequenceOpt
 
 const std::array<std::string, measure::kNumMeasures>& MeasureNames() {
   static const std::array<std::string, measure::kNumMeasures> kNames = {
-      "cam_mm", "pa_mm", "root_mm", "angle_deg", "jitter_mm", "lag_frames", "ms_per_frame"};
+      "cam_mm",    "pa_mm",      "root_mm",       "angle_deg",
+      "jitter_mm", "lag_frames", "bones_percent", "ms_per_frame"};
   return kNames;
 }
 

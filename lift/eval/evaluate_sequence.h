@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "lift/body_proportions.h"
 #include "lift/eval/synthetic_view.h"
 #include "src/motion.h"
 #include "src/observation.h"
@@ -55,8 +56,10 @@ inline constexpr int kCam_mm = 0,  // CamError_mm
     kAngle_deg = 3,
                      kJitter_mm = 4,  // Jitter_mm
     kLag_frames = 5,                  // Lag_frames
-    kMsPerFrame = 6,                  // of processor time, the lift before a filter included
-    kNumMeasures = 7;
+    // Root mean square of `bones` over the groups: proportions against the subject's.
+    kBones_percent = 6,
+                     kMsPerFrame = 7,  // of processor time, the lift before a filter included
+    kNumMeasures = 8;
 }  // namespace measure
 using SequenceErrors = Eigen::Array<double, measure::kNumMeasures, 1>;
 const std::array<std::string, measure::kNumMeasures>& MeasureNames();  // "cam_mm", ...
@@ -65,6 +68,8 @@ struct SequenceEvaluation {
   std::string method, trial;
   double noise_px = 0.0;
   SequenceErrors errors = SequenceErrors::Zero();
+  // Of each group's mean length over the frames, at equal stature: percent too long.
+  GroupVector bones_percent = GroupVector::Zero();
   std::vector<SkeletonPose> poses;  // on the standard skeleton, world is cam
 };
 

@@ -3,18 +3,22 @@
 #include "lift/temporal/sequence_refinement.h"
 
 #include <ceres/cost_function.h>
+#include <ceres/crs_matrix.h>
 #include <ceres/loss_function.h>
 #include <ceres/manifold.h>
+#include <ceres/normal_prior.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <fmt/format.h>
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
 
 #include "lift/temporal/difference_cost.h"
+#include "lift/temporal/proportions_cost.h"
 #include "src/input_error.h"
 
 namespace poselift {
@@ -42,18 +46,31 @@ struct Unknowns {
   double* dofs() { return pose.dofs.data(); }
 };
 
-// One piece as a Ceres problem.
+// One piece as a Ceres problem. body: the standard one; seen: the one before the
+// camera, unless its proportions are unknown.
 class PieceProblem {
  public:
-  PieceProblem(const Articulation& body, const DofSprings& springs, const PosePrior& weighted_prior,
-               const SequenceRefinementOptions& options, double frame_time_s)
+  PieceProblem(const Articulation& body, const Articulation& seen, const DofSprings& springs,
+               const PosePrior& weighted_prior, const SequenceRefinementOptions& options,
+               double frame_time_s)
       : body_(body),
+        seen_(seen),
         springs_(springs),
         prior_(weighted_prior),
         options_(options),
         dt_s_(frame_time_s),
         root_rate_(std::sqrt(frame_time_s / kReferenceFrameTime_s)),
         problem_(ProblemOptions()) {}
+
+  // Before any frame.
+  void AddProportions(const BodyProportions& prior) {
+    log_ratios_ = prior.log_ratios;
+    const Eigen::MatrixXd whitening =
+        std::sqrt(AlikeFrames()) *
+        prior.covariance.llt().matrixL().solve(GroupMatrix::Identity()).eval();
+    problem_.AddResidualBlock(new ceres::NormalPrior(whitening, prior.log_ratios), nullptr,
+                              log_ratios_->data());
+  }
 
   void Add(const FrameEvidence& evidence, const RefinedFrame& start) {
     unknowns_.push_back(std::make_unique<Unknowns>(start));
@@ -84,6 +101,25 @@ class PieceProblem {
     return summary.IsSolutionUsable();
   }
 
+  BodyProportions Proportions() {
+    ceres::Problem::EvaluateOptions options;
+    problem_.GetParameterBlocks(&options.parameter_blocks);
+    std::erase_if(options.parameter_blocks, [&](double* block) {
+      return block == log_ratios_->data() || problem_.IsParameterBlockConstant(block);
+    });
+    options.parameter_blocks.push_back(log_ratios_->data());
+    ceres::CRSMatrix rows;
+    problem_.Evaluate(options, nullptr, nullptr, nullptr, &rows);
+    using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+    const Eigen::Map<const RowMajor> J(rows.num_rows, rows.num_cols, std::ssize(rows.values),
+                                       rows.rows.data(), rows.cols.data(), rows.values.data());
+    const Eigen::SparseMatrix<double> H = J.transpose() * J;
+    Eigen::MatrixXd units = Eigen::MatrixXd::Zero(H.cols(), kNumBoneGroups);
+    units.bottomRows<kNumBoneGroups>().setIdentity();
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(H);
+    return {*log_ratios_, AlikeFrames() * factors.solve(units).bottomRows<kNumBoneGroups>()};
+  }
+
   RefinedFrame Result(size_t i) const {
     const Unknowns& unknowns = *unknowns_[i];
     RefinedFrame frame{unknowns.pose, {}};
@@ -95,6 +131,8 @@ class PieceProblem {
   }
 
  private:
+  double AlikeFrames() const { return std::max(1.0, options_.alike_s / dt_s_); }
+
   static ceres::Problem::Options ProblemOptions() {
     ceres::Problem::Options options;
     options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -133,11 +171,15 @@ class PieceProblem {
       (point.kind == ObservedPoint::Kind::k2D ? in_picture : in_space)
           .push_back({point.parts, point.x, 1.0 / point.sigma});
     Unknowns& now = FromLast(0);
-    if (!in_picture.empty())
-      problem_.AddResidualBlock(MakeReprojectionCost(body_, std::move(in_picture)).release(),
+    if (!in_picture.empty() && log_ratios_)
+      problem_.AddResidualBlock(MakeProportionsCost(body_, std::move(in_picture)).release(),
+                                nullptr, now.root(), now.rotation(), now.dofs(), now.camera.data(),
+                                log_ratios_->data());
+    else if (!in_picture.empty())
+      problem_.AddResidualBlock(MakeReprojectionCost(seen_, std::move(in_picture)).release(),
                                 nullptr, now.root(), now.rotation(), now.dofs(), now.camera.data());
     if (!in_space.empty() || !observation.bone_poses.empty())
-      AddPoseTerm(MakeSpaceCost(body_, std::move(in_space), false, observation.bone_poses),
+      AddPoseTerm(MakeSpaceCost(seen_, std::move(in_space), false, observation.bone_poses),
                   nullptr);
   }
 
@@ -219,6 +261,7 @@ class PieceProblem {
   }
 
   const Articulation& body_;
+  const Articulation& seen_;
   const DofSprings& springs_;
   const PosePrior& prior_;
   const SequenceRefinementOptions& options_;
@@ -226,6 +269,7 @@ class PieceProblem {
   double root_rate_;
   bool has_path_ = false;
   const LocalPose* local_before_ = nullptr;  // of the frame before the last
+  std::optional<GroupVector> log_ratios_;    // where they are unknown
   ceres::EigenQuaternionManifold quaternions_;
   std::vector<std::unique_ptr<Unknowns>> unknowns_;
   ceres::Problem problem_;
@@ -240,7 +284,8 @@ std::string SequenceRefinementOptions::Validate() const {
       {"acceleration_sigma_rad", acceleration_sigma_rad},
       {"turn_sigma", turn_sigma},
       {"path_sigma_m", path_sigma_m},
-      {"log_scale_sigma", log_scale_sigma}};
+      {"log_scale_sigma", log_scale_sigma},
+      {"alike_s", alike_s}};
   for (const auto& [name, value] : positive)
     if (!(value > 0.0 && std::isfinite(value)))
       return fmt::format("SequenceRefinementOptions::{} = {}, wanted > 0", name, value);
@@ -278,7 +323,20 @@ SequenceRefinement::SequenceRefinement(const Skeleton& skeleton, PosePrior prior
 
 std::vector<RefinedFrame> SequenceRefinement::Solve(const std::vector<FrameEvidence>& frames,
                                                     double frame_time_s,
-                                                    const ProgressFn& progress) const {
+                                                    const GroupVector& log_ratios) const {
+  const Articulation seen(WithProportions(body_.skeleton, log_ratios));
+  return SolvePieces(frames, frame_time_s, seen, nullptr);
+}
+
+std::vector<RefinedFrame> SequenceRefinement::SolveWithProportions(
+    const std::vector<FrameEvidence>& frames, double frame_time_s, BodyProportions* body) const {
+  return SolvePieces(frames, frame_time_s, body_, body);
+}
+
+std::vector<RefinedFrame> SequenceRefinement::SolvePieces(const std::vector<FrameEvidence>& frames,
+                                                          double frame_time_s,
+                                                          const Articulation& seen,
+                                                          BodyProportions* proportions) const {
   std::vector<RefinedFrame> refined;
   for (const FrameEvidence& frame : frames) refined.push_back({frame.start, frame.camera});
   const auto piece = static_cast<size_t>(options_.piece_frames);
@@ -287,26 +345,20 @@ std::vector<RefinedFrame> SequenceRefinement::Solve(const std::vector<FrameEvide
     const size_t held_from = first < 2 ? 0 : first - 2;
     // A short rest is better solved with this piece than alone.
     const bool is_last = first + piece + overlap >= frames.size();
-    SolvePiece(frames, held_from, first, is_last ? frames.size() : first + piece + overlap,
-               frame_time_s, &refined);
-    if (progress)
-      progress(
-          std::min(1.0, static_cast<double>(first + piece) / static_cast<double>(frames.size())));
+    const size_t end = is_last ? frames.size() : first + piece + overlap;
+    PieceProblem problem(body_, seen, springs_, weighted_prior_, options_, frame_time_s);
+    if (proportions) problem.AddProportions(*proportions);
+    for (size_t t = held_from; t < end; ++t) {
+      problem.Add(frames[t], refined[t]);
+      if (t < first) problem.HoldLast();
+    }
+    if (problem.Solve()) {
+      for (size_t t = first; t < end; ++t) refined[t] = problem.Result(t - held_from);
+      if (proportions) *proportions = problem.Proportions();
+    }
     if (is_last) break;
   }
   return refined;
-}
-
-void SequenceRefinement::SolvePiece(const std::vector<FrameEvidence>& frames, size_t first,
-                                    size_t first_free, size_t end, double frame_time_s,
-                                    std::vector<RefinedFrame>* refined) const {
-  PieceProblem problem(body_, springs_, weighted_prior_, options_, frame_time_s);
-  for (size_t t = first; t < end; ++t) {
-    problem.Add(frames[t], (*refined)[t]);
-    if (t < first_free) problem.HoldLast();
-  }
-  if (!problem.Solve()) return;
-  for (size_t t = first_free; t < end; ++t) (*refined)[t] = problem.Result(t - first);
 }
 
 }  // namespace poselift

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lift/body_proportions.h"
 #include "lift/ik/articulation.h"
 #include "lift/ik/pose_costs.h"
 #include "lift/pose_prior.h"
@@ -14,7 +15,6 @@
 #include "lift/weak_camera.h"
 #include "src/observation.h"
 #include "src/pose3.h"
-#include "src/progress.h"
 
 namespace poselift {
 
@@ -37,6 +37,8 @@ struct SequenceRefinementOptions {
   double path_sigma_m = 0.02;     // of the root's place, with 3D points
   double log_scale_sigma = 0.01;  // to the start's scale, and from frame to frame
   double limit_stiffness = 10.0;  // per radian beyond a dof's limits
+  // Frames within this time are wrong alike: for a body's proportions they count as one.
+  double alike_s = 2.0;
   double function_tolerance = 1e-4;
   int max_iterations = 30;
   // Long sequences are solved piece by piece: memory is that of a piece. Each is
@@ -78,21 +80,36 @@ struct RefinedFrame {
 //            + the root's second differences
 //
 // by Levenberg-Marquardt; the normal equations are a band, so the cost is linear
-// in frames.
+// in frames. What was learned of poses is about the standard skeleton, so f(q) there
+// is that of the standard skeleton at the angles of q; labels see the body itself.
 class SequenceRefinement {
  public:
   // Throws InputError for wrong options.
   SequenceRefinement(const Skeleton& skeleton, PosePrior prior,
                      const SequenceRefinementOptions& options = {});
 
-  // Poses for all frames; those of `start` where the solver breaks down.
+  // Poses for all frames; those of `start` where the solver breaks down. The body
+  // has the standard proportions, or these.
   std::vector<RefinedFrame> Solve(const std::vector<FrameEvidence>& frames, double frame_time_s,
-                                  const ProgressFn& progress = {}) const;
+                                  const GroupVector& log_ratios = GroupVector::Zero()) const;
+
+  // The same with the proportions as unknowns of all frames. With alike frames
+  // counted as one, n = alike_s / frame_time_s of them (at least 1),
+  //
+  //   min over q_t, cameras, rho   sum_t (as above)  +  n |rho - mean|^2_covariance
+  //
+  // *body: on entry mean and covariance, on return rho and n times its block of the
+  // inverse of the Gauss-Newton matrix of all unknowns: a length that some other pose
+  // could explain as well stays as unsure as it was. Each piece of a long sequence
+  // starts with what those before it have found.
+  std::vector<RefinedFrame> SolveWithProportions(const std::vector<FrameEvidence>& frames,
+                                                 double frame_time_s, BodyProportions* body) const;
 
  private:
-  // Solves [first, end), holding those before `first_free` where they are.
-  void SolvePiece(const std::vector<FrameEvidence>& frames, size_t first, size_t first_free,
-                  size_t end, double frame_time_s, std::vector<RefinedFrame>* refined) const;
+  // Piece by piece, with *proportions unknown unless it is null.
+  std::vector<RefinedFrame> SolvePieces(const std::vector<FrameEvidence>& frames,
+                                        double frame_time_s, const Articulation& seen,
+                                        BodyProportions* proportions) const;
 
   Articulation body_;
   DofSprings springs_;

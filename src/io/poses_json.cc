@@ -18,6 +18,7 @@ constexpr std::string_view kAxes = "x right, y down, z forward";
 constexpr int kMetreDecimals = 6, kPixelDecimals = 3, kDegreeDecimals = 3, kTimeDecimals = 6,
               kCoefficientDecimals = 6, kQuaternionDecimals = 9;
 constexpr double kLargestNumber = 1e12;
+constexpr double kShortestBone_m = 1e-3, kLongestBone_m = 10.0;
 
 using NamedValues = std::vector<std::pair<std::string, double>>;
 
@@ -139,6 +140,26 @@ void AppendFrame(const FramePoses& frame, std::string_view before_person, std::s
   object.Close();
 }
 
+void AppendBones(const Eigen::VectorXd& values_m, std::string* out) {
+  ObjectText bones(out);
+  for (int j = 1; j < kNumJoints; ++j) bones.Number(Joints()[j].name, values_m[j], kMetreDecimals);
+  bones.Close();
+}
+
+void AppendBodies(const std::vector<PersonBones>& bodies, std::string* out) {
+  *out += "],\n \"bodies\": [";
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    *out += i > 0 ? ",\n  " : "\n  ";
+    ObjectText body(out);
+    body.Number("id", bodies[i].id, 0);
+    body.Key("bone_lengths_m");
+    AppendBones(bodies[i].lengths_m, out);
+    body.Key("bone_sigmas_m");
+    AppendBones(bodies[i].sigmas_m, out);
+    body.Close();
+  }
+}
+
 double ReadNumber(const JsonValue& value) { return value.Number(-kLargestNumber, kLargestNumber); }
 
 double ReadNumberOrUnknown(const JsonValue& object, std::string_view key) {
@@ -178,6 +199,20 @@ Eigen::Quaterniond ReadRotation(const JsonValue& list) {
   if (std::abs(wxyz.norm() - 1.0) > 1e-3)
     throw list.Error(fmt::format("found a quaternion of length {:g}, wanted 1", wxyz.norm()));
   return Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized();
+}
+
+Eigen::VectorXd ReadBones(const JsonValue& object, double least_m) {
+  Eigen::VectorXd values_m = Eigen::VectorXd::Zero(kNumJoints);
+  for (int j = 1; j < kNumJoints; ++j)
+    values_m[j] = object.At(Joints()[j].name).Number(least_m, kLongestBone_m);
+  return values_m;
+}
+
+PersonBones ReadBody(const JsonValue& json) {
+  constexpr int kLargestInt = std::numeric_limits<int>::max();
+  return {json.At("id").Integer(std::numeric_limits<int>::min(), kLargestInt),
+          ReadBones(json.At("bone_lengths_m"), kShortestBone_m),
+          ReadBones(json.At("bone_sigmas_m"), 0.0)};
 }
 
 PoseAlternative ReadAlternative(const JsonValue& json) {
@@ -242,6 +277,7 @@ std::string PosesJson(const Poses& poses) {
       kFormat, kAxes);
   for (int j = 0; j < kNumJoints; ++j)
     text += fmt::format("{}\"{}\"", j > 0 ? ", " : "", Joints()[j].name);
+  if (!poses.bodies.empty()) AppendBodies(poses.bodies, &text);
   text += "],\n \"frames\": [";
   for (size_t i = 0; i < poses.frames.size(); ++i) {
     text += i > 0 ? ",\n  " : "\n  ";
@@ -262,6 +298,8 @@ Poses ReadPosesJson(const std::filesystem::path& path) {
   if (const JsonValue& version = root.At("version"); version.Number() != 1.0)
     throw version.Unwanted("1, the version that this poselift reads");
   Poses poses;
+  if (const JsonValue* bodies = root.Find("bodies"))
+    for (const JsonValue& json : bodies->Items()) poses.bodies.push_back(ReadBody(json));
   for (const JsonValue& json : root.At("frames").Items()) poses.frames.push_back(ReadFrame(json));
   return poses;
 }

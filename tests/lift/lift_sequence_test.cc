@@ -13,6 +13,7 @@
 #include "lift/default_dictionary.h"
 #include "lift/dictionary_file.h"
 #include "lift/eval/pose_error.h"
+#include "lift/normalize.h"
 #include "lift/rotation.h"
 #include "src/forward_kinematics.h"
 #include "src/input_error.h"
@@ -40,14 +41,17 @@ class LiftSequenceTest : public ::testing::Test {
     return SegmentsOf(database, 2);
   }
 
-  // From the side, every other frame of the walk from its 40th on.
-  void See(int num_frames, double noise_px) {
+  // Every other frame of the walk from its 40th on, from the side, a little farther
+  // round with each frame, by a body of other proportions.
+  void See(int num_frames, double noise_px, const GroupVector& log_ratios = GroupVector::Zero(),
+           double turn_rad = 0.0) {
+    const Skeleton body = WithProportions(walk_.skeleton, log_ratios);
     auto rng = testing::TestRng();
     std::normal_distribution<double> noise(0.0, noise_px);
-    const Eigen::Matrix3d cam_from_world = CamFromBody({0.0, 1.2, 0.0});
     for (int t = 0; t < num_frames; ++t) {
+      const Eigen::Matrix3d cam_from_world = CamFromBody({0.0, 1.2 + t * turn_rad, 0.0});
       const SkeletonPose& pose = walk_.frames[static_cast<size_t>(40 + 2 * t)];
-      truth_.push_back(cam_from_world * JointPositions(walk_.skeleton, pose));
+      truth_.push_back(cam_from_world * JointPositions(body, pose));
       Observation& frame = frames_.emplace_back();
       for (const Landmark& landmark : FindLayout("body15")->landmarks) {
         const Eigen::Vector3d x_in_cam_m = SumOfJoints(landmark.parts, truth_.back());
@@ -141,6 +145,79 @@ TEST_F(LiftSequenceTest, PiecesAreNearlyTheWhole) {
                   .mean(),
               0.02)
         << t;
+}
+
+GroupVector LongLegs() {
+  GroupVector log_ratios = GroupVector::Zero();
+  log_ratios[1] = 0.10;  // thigh
+  log_ratios[2] = 0.06;  // shank
+  return log_ratios;
+}
+
+TEST_F(LiftSequenceTest, FindsLongLegsOfAWalkThatTurns) {
+  See(60, 0.5, LongLegs(), 0.02);
+  const Eigen::VectorXd standard_m = BoneLengths(dictionary_.skeleton);
+  const GroupVector truth = AtEqualStature({LongLegs(), {}}, standard_m).log_ratios;
+  const LiftedSequence lifted =
+      SequenceLifter(lifter_, codebook_).LiftSequence(frames_, kFrameTime_s);
+  // The arms of this walk are spread out: from the side they point at the camera.
+  for (const int seen : {1, 2, 4}) {
+    EXPECT_NEAR(lifted.body.log_ratios[seen], truth[seen], 0.03) << BoneGroupNames()[seen];
+    EXPECT_LT(lifted.body.covariance(seen, seen), ProportionPrior().covariance(seen, seen));
+  }
+  EXPECT_NEAR(LogStature(lifted.body.log_ratios, standard_m), 0.0, 1e-9);
+}
+
+TEST_F(LiftSequenceTest, AllPosesAreOfOneSymmetricBody) {
+  See(30, 2.0, LongLegs());
+  for (size_t t = 10; t < 20; ++t) frames_[t].points.clear();
+  LiftSequenceOptions with_gap;
+  with_gap.max_gap_s = 0.1;
+  const LiftedSequence lifted =
+      SequenceLifter(lifter_, codebook_, with_gap).LiftSequence(frames_, kFrameTime_s);
+  const Eigen::VectorXd lengths_m = BoneLengths(lifted.skeleton);
+  for (int j = 1; j < kNumJoints; ++j)
+    EXPECT_NEAR(lengths_m[j], lengths_m[Joints()[j].mirror], 1e-9);
+  EXPECT_GT(lengths_m[joint::kLeftKnee],
+            1.01 * BoneLengths(dictionary_.skeleton)[joint::kLeftKnee]);
+  for (const LiftResult& frame : lifted.frames)
+    for (const LiftedPose& pose : frame.poses)
+      for (int j = 1; j < kNumJoints; ++j)
+        EXPECT_NEAR(
+            (pose.joints_in_cam_m.col(j) - pose.joints_in_cam_m.col(Joints()[j].parent)).norm(),
+            lengths_m[j], 1e-9);
+}
+
+TEST_F(LiftSequenceTest, ProportionsDoNotDependOnTheScaleOfThePicture) {
+  See(20, 1.0, LongLegs());
+  const SequenceLifter lifter(lifter_, codebook_);
+  const GroupVector once = lifter.LiftSequence(frames_, kFrameTime_s).body.log_ratios;
+  for (Observation& frame : frames_)
+    for (ObservedPoint& point : frame.points) {
+      point.x *= 1.7;
+      point.sigma *= 1.7;
+    }
+  const GroupVector enlarged = lifter.LiftSequence(frames_, kFrameTime_s).body.log_ratios;
+  EXPECT_TRUE(testing::MatrixNear(once, enlarged, 2e-3));
+}
+
+TEST_F(LiftSequenceTest, FewFramesStayNearTheStandardBody) {
+  See(60, 1.0, LongLegs());
+  const SequenceLifter lifter(lifter_, codebook_);
+  const GroupVector of_many = lifter.LiftSequence(frames_, kFrameTime_s).body.log_ratios;
+  frames_.resize(3);
+  const GroupVector of_few = lifter.LiftSequence(frames_, kFrameTime_s).body.log_ratios;
+  EXPECT_LT(of_few.norm(), 0.5 * of_many.norm());
+}
+
+TEST_F(LiftSequenceTest, KeepsTheStandardBonesWhenTold) {
+  See(8, 1.0, LongLegs());
+  LiftSequenceOptions standard;
+  standard.find_proportions = false;
+  const LiftedSequence lifted =
+      SequenceLifter(lifter_, codebook_, standard).LiftSequence(frames_, kFrameTime_s);
+  EXPECT_TRUE(lifted.body.log_ratios.isZero());
+  EXPECT_EQ(BoneLengths(lifted.skeleton), BoneLengths(dictionary_.skeleton));
 }
 
 TEST_F(LiftSequenceTest, SameInputSameBytes) {

@@ -113,6 +113,20 @@ TEST(PosesJson, OfThousandsOfFramesGrowsWithTheirNumber) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2 + 5000 * 2 + 1);
 }
 
+TEST(PosesJson, BodiesAreReadBack) {
+  Poses poses = MadeUpPoses();
+  const Eigen::VectorXd lengths_m = Eigen::VectorXd::LinSpaced(kNumJoints, 0.0, 0.44);
+  poses.bodies.push_back({4, lengths_m, 0.01 * lengths_m});
+  const auto path = WriteScratch("bodies.json", PosesJson(poses));
+  const Poses back = ReadPosesJson(path);
+  ASSERT_EQ(back.bodies.size(), 1U);
+  EXPECT_EQ(back.bodies[0].id, 4);
+  EXPECT_TRUE(MatrixNear(back.bodies[0].lengths_m, lengths_m, 1e-6));
+  EXPECT_TRUE(MatrixNear(back.bodies[0].sigmas_m, 0.01 * lengths_m, 1e-6));
+  poses.bodies[0].lengths_m[3] = 0.0;
+  EXPECT_THROW(ReadPosesJson(WriteScratch("bodies.json", PosesJson(poses))), InputError);
+}
+
 TEST(PosesJson, RefusesWhatDoesNotFit) {
   const std::string good = PosesJson(MadeUpPoses());
   const auto complaint = [&](const std::string& from, const std::string& to) -> std::string {

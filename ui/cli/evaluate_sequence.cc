@@ -154,6 +154,8 @@ void WriteJson(const SequenceReport& report, const Options& options, const Dicti
                 {"frames", evaluation.poses.size()}};
     for (int i = 0; i < measure::kNumMeasures; ++i)
       row[MeasureNames()[static_cast<size_t>(i)]] = evaluation.errors[i];
+    for (int g = 0; g < kNumBoneGroups; ++g)
+      row["too_long_percent"][std::string(BoneGroupNames()[g])] = evaluation.bones_percent[g];
     json["trials"].push_back(std::move(row));
   }
   WriteFileAtomically(options.json, json.dump(1) + "\n");

@@ -12,10 +12,12 @@
 #include <memory>
 #include <string>
 
+#include "lift/body_proportions.h"
 #include "lift/default_dictionary.h"
 #include "lift/dictionary_file.h"
 #include "lift/lift_labels.h"
 #include "lift/lift_sequence.h"
+#include "lift/normalize.h"
 #include "lift/poses_to_motion.h"
 #include "lift/temporal/motion_codebook_file.h"
 #include "src/io/angles_csv.h"
@@ -52,6 +54,7 @@ struct Options {
   bool has_fps = false;
   std::string motion_model;
   bool frames_alone = false;
+  bool standard_bones = false;
   bool propagate = true;
   double max_gap_s = 1.0;
   bool overlay_video = false;
@@ -94,8 +97,10 @@ LiftedLabels LiftMotion(const PhotoLifter& lifter, const Labels& labels,
                         const ProgressFn& progress) {
   const MotionCodebook codebook = WithMirrored(ReadMotionCodebook(
       options.motion_model.empty() ? DefaultMotionModelPath() : fs::path(options.motion_model)));
-  return LiftLabelsOverTime(SequenceLifter(lifter, codebook), lifter.dictionary().skeleton, labels,
-                            camera, progress);
+  LiftSequenceOptions sequence;
+  sequence.find_proportions = !options.standard_bones;
+  return LiftLabelsOverTime(SequenceLifter(lifter, codebook, sequence),
+                            lifter.dictionary().skeleton, labels, camera, progress);
 }
 
 bool AnyUsable(const LiftedLabels& lifted) {
@@ -164,6 +169,22 @@ int Report(const LiftedLabels& lifted) {
   return usable;
 }
 
+// One line a person: percent longer or shorter than the standard bones.
+void PrintBodies(const std::vector<PersonBones>& bodies, const Skeleton& standard) {
+  const Eigen::VectorXd standard_m = BoneLengths(standard);
+  for (const PersonBones& body : bodies) {
+    const GroupVector log_ratios = LogRatios(body.lengths_m, standard_m);
+    fmt::print("person {}, bones at the standard stature:", body.id);
+    for (int j = 1; j < kNumJoints; ++j) {
+      const int group = GroupOfJoint(j);
+      if (group == GroupOfJoint(j - 1) || Joints()[j].mirror < j) continue;
+      fmt::print("{} {} {:+.1f} ± {:.1f}", group > 0 ? "," : "", BoneGroupNames()[group],
+                 100.0 * std::expm1(log_ratios[group]), 100.0 * body.sigmas_m[j] / standard_m[j]);
+    }
+    fmt::print(" %\n");
+  }
+}
+
 int Lift(const Options& options) {
   LiftInputs inputs = Gather(options);
   if (options.has_fps) SetTimes(options.fps, &inputs.labels);
@@ -187,6 +208,7 @@ int Lift(const Options& options) {
   if (!inputs.video.empty()) WriteLabels(inputs.labels, fs::path(options.out) / "labels.json");
   WriteAllPictures(lifted, inputs, camera, options);
   const int usable = Report(lifted);
+  PrintBodies(lifted.poses.bodies, dictionary.skeleton);
   if (truth) PrintErrorAgainstTruth(lifted.poses, *truth);
   fmt::print("results in {}\n", options.out);
   return usable > 0 ? kDone : kFailed;
@@ -227,6 +249,8 @@ CLI::App* AddLift(CLI::App* app, Run* run) {
                       "For frames with times (default: the one that ships)");
   command->add_flag("--frames-alone", options->frames_alone,
                     "Lift each frame by itself, also of a motion");
+  command->add_flag("--standard-bones", options->standard_bones,
+                    "Of a motion: keep the standard proportions of the body, do not find them out");
   command->add_flag("--propagate,!--no-propagate", options->propagate,
                     "Video: label the frames between the labelled ones (default: yes)");
   command->add_option("--max-gap-s", options->max_gap_s, "Video: labels lead no farther, in s")

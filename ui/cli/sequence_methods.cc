@@ -120,6 +120,9 @@ std::vector<NamedSequenceMethod> SequenceMethods(const Dictionary& dictionary,
   const auto shared = std::make_shared<const MotionCodebook>(codebook);
   const auto lifter = std::make_shared<PhotoLifter>(dictionary);
   const auto together = std::make_shared<SequenceLifter>(*lifter, codebook);
+  LiftSequenceOptions standard;
+  standard.find_proportions = false;
+  const auto on_standard = std::make_shared<SequenceLifter>(*lifter, codebook, standard);
   return {{"each frame alone",
            [lifter](const Sequence& sequence, double) { return LiftFrames(*lifter, sequence); },
            {Butterworth("Butterworth 1.5 Hz", 1.5), Butterworth("Butterworth 3 Hz", 3.0),
@@ -132,6 +135,11 @@ std::vector<NamedSequenceMethod> SequenceMethods(const Dictionary& dictionary,
                                SmoothPoints(sequence, frame_time_s, 4.0, /*max_gap_frames=*/1000));
            },
            {Butterworth("labels at 4 Hz, poses at 3 Hz", 3.0)}},
+          {"poselift, standard bones",
+           [lifter, on_standard](const Sequence& sequence, double frame_time_s) {
+             return LiftTogether(*on_standard, sequence, frame_time_s);
+           },
+           {}},
           {"poselift",
            [lifter, together](const Sequence& sequence, double frame_time_s) {
              return LiftTogether(*together, sequence, frame_time_s);

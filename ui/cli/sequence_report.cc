@@ -84,8 +84,9 @@ std::string SequenceReport::Best(double noise_px, const std::vector<std::string>
 }
 
 void SequenceReport::Print() const {
-  fmt::print("{:>8} {:<30} {:>12} {:>12} {:>12} {:>12} {:>12} {:>14} {:>9}\n", "noise px", "method",
-             "CAM mm", "PA mm", "root mm", "degrees", "jitter mm", "lag frames", "ms/frame");
+  fmt::print("{:>8} {:<30} {:>12} {:>12} {:>12} {:>12} {:>12} {:>14} {:>12} {:>9}\n", "noise px",
+             "method", "CAM mm", "PA mm", "root mm", "degrees", "jitter mm", "lag frames",
+             "bones %", "ms/frame");
   for (const double noise_px : noises_px_)
     for (const std::string& method : methods_) {
       const SequenceMean cell = MeanOf(method, noise_px);

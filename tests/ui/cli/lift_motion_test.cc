@@ -80,6 +80,49 @@ TEST(LiftMotion, FillsAndMarksFramesWithoutLabels) {
   EXPECT_EQ(ReadMotion(ScratchDir() / "out/poses.bvh").frames.size(), 16U);
 }
 
+Eigen::VectorXd BvhLengths(const std::string& path) {
+  const Motion motion = ReadMotion(ScratchDir() / path);
+  Eigen::VectorXd lengths_m(motion.skeleton.bones.size());
+  for (size_t b = 0; b < motion.skeleton.bones.size(); ++b)
+    lengths_m[static_cast<Eigen::Index>(b)] = motion.skeleton.bones[b].tip_m.norm();
+  return lengths_m;
+}
+
+TEST(LiftMotion, WritesTheBodyItFinds) {
+  WriteLabels(PartOfWalk(40), ScratchDir() / "walk.labels.json");
+  const auto run = RunProgram("lift --labels walk.labels.json --out own");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("person 0, bones at the standard stature: hip"), std::string::npos);
+  const Json poses = ReadJson("own/poses.json");
+  ASSERT_EQ(poses["bodies"].size(), 1U);
+  const Json& lengths_m = poses["bodies"][0]["bone_lengths_m"];
+  EXPECT_EQ(lengths_m["left_knee"], lengths_m["right_knee"]);
+  const auto length_m = [](const Json& person, const char* joint, const char* parent) {
+    const Json &a = person["joints_in_cam"][joint], &b = person["joints_in_cam"][parent];
+    return std::hypot(a[0].get<double>() - b[0].get<double>(),
+                      a[1].get<double>() - b[1].get<double>(),
+                      a[2].get<double>() - b[2].get<double>());
+  };
+  for (const Json& frame : poses["frames"])
+    EXPECT_NEAR(length_m(frame["people"][0], "left_knee", "left_hip"),
+                lengths_m["left_knee"].get<double>(), 5e-6);
+
+  // The motion file has this body, and so has what is smoothed of the poses.
+  const Motion motion = ReadMotion(ScratchDir() / "own/poses.bvh");
+  const auto thigh = motion.skeleton.FindBone("lfemur");
+  ASSERT_TRUE(thigh.has_value());
+  EXPECT_NEAR(motion.skeleton.bones[static_cast<size_t>(*thigh)].tip_m.norm(),
+              lengths_m["left_knee"].get<double>(), 1e-5);
+  ASSERT_EQ(RunProgram("smooth own/poses.json --out smooth.json").code, 0);
+  EXPECT_EQ(ReadJson("smooth.json")["bodies"], poses["bodies"]);
+  ASSERT_EQ(RunProgram("smooth own/poses.json --out smooth.bvh").code, 0);
+  EXPECT_LT((BvhLengths("smooth.bvh") - BvhLengths("own/poses.bvh")).norm(), 1e-4);
+
+  ASSERT_EQ(RunProgram("lift --labels walk.labels.json --standard-bones --out standard").code, 0);
+  EXPECT_FALSE(ReadJson("standard/poses.json").contains("bodies"));
+  EXPECT_GT((BvhLengths("standard/poses.bvh") - BvhLengths("own/poses.bvh")).norm(), 1e-3);
+}
+
 TEST(LiftMotion, FramesAloneAreNotFilled) {
   Labels labels = PartOfWalk(6);
   labels.frames[3].people.clear();
