@@ -19,14 +19,6 @@
 namespace poselift {
 namespace {
 
-// World of a level camera: y up, facing the camera.
-SkeletonPose InWorld(const SkeletonPose& pose_in_cam) {
-  SkeletonPose pose = pose_in_cam;
-  pose.world_from_root = kLevelFromCam * pose_in_cam.world_from_root;
-  pose.root_in_world_m = kLevelFromCam * pose_in_cam.root_in_world_m;
-  return pose;
-}
-
 // As a pinhole camera with square pixels would have taken the picture.
 PersonLabels WithoutDistortion(PersonLabels labels, const Camera& camera, const Pinhole& pinhole) {
   for (LandmarkLabel& label : labels.landmarks) {
@@ -132,7 +124,8 @@ PersonPose ToPersonPose(const LiftResult& result, const Observation& observation
   person.translation_px = best.camera.translation_px;
   person.pelvis_in_cam_m = best.pelvis_in_cam_m;
   person.rotation_cam_from_body = Eigen::Quaterniond(best.camera.cam_from_body);
-  person.angles_deg = Named(JointAngleReader(skeleton).ReadDeg(InWorld(best.pose)));
+  person.angles_deg = Named(JointAngleReader(skeleton).ReadDeg(LevelFromCam(best.pose)));
+  person.angles_sigma_deg = Named(best.angles_sigma_deg);
   person.reprojection_rms_px = best.reprojection_rms_px;
   for (size_t i = 0; i < observation.points.size(); ++i)
     person.per_joint_px.emplace_back(observation.points[i].name,
@@ -221,7 +214,7 @@ LiftedLabels LiftLabelsOverTime(const SequenceLifter& lifter, const Skeleton& sk
                           sequence.skeleton);
       if (sequence.filled[place]) pose.status = kFilledStatus;
       if (sequence.frames[place].IsUsable()) {
-        const SkeletonPose now = InWorld(sequence.frames[place].poses.front().pose);
+        const SkeletonPose now = LevelFromCam(sequence.frames[place].poses.front().pose);
         angles_deg = angles_deg.size() ? angles.ReadDeg(now, angles_deg) : angles.ReadDeg(now);
         pose.angles_deg = Named(angles_deg);
       }
@@ -238,7 +231,7 @@ Motion ToMotion(const LiftedLabels& lifted, const Skeleton& skeleton, double fra
       if (!motion.frames.empty()) motion.frames.push_back(motion.frames.back());
       continue;
     }
-    SkeletonPose pose = InWorld(people.front().poses.front().pose);
+    SkeletonPose pose = LevelFromCam(people.front().poses.front().pose);
     pose.root_in_world_m.y() -= JointPositions(skeleton, pose).row(1).minCoeff();
     motion.frames.push_back(std::move(pose));
   }
@@ -259,7 +252,7 @@ Motion ToMotionOverTime(const LiftedLabels& lifted, const Skeleton& skeleton) {
     const auto& people = lifted.poses.frames[source].people;
     for (size_t p = 0; p < people.size(); ++p)
       if (people[p].id == placed.person_id) {
-        const SkeletonPose pose = InWorld(lifted.results[source][p].poses.front().pose);
+        const SkeletonPose pose = LevelFromCam(lifted.results[source][p].poses.front().pose);
         frames[t].dofs = pose.dofs;
         frames[t].world_from_root = pose.world_from_root;
       }

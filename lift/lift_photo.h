@@ -38,6 +38,9 @@ struct LiftedPose {
   // Where a known camera (Observation::pinhole) has the pelvis, at the size of
   // the skeleton; NaN without one.
   Eigen::Vector3d pelvis_in_cam_m = Eigen::Vector3d::Constant(std::nan(""));
+  // How sure each of JointAngles() is: one standard deviation, degrees. Empty for a
+  // frame by itself.
+  Eigen::VectorXd angles_sigma_deg;
   SparseCode code;  // x: metres
   // What is left to explain, in squared standard deviations: the points', the
   // pose's and the rotation's.

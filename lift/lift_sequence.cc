@@ -15,6 +15,7 @@
 #include "lift/point_curves.h"
 #include "src/forward_kinematics.h"
 #include "src/input_error.h"
+#include "src/level_camera.h"
 
 namespace poselift {
 namespace {
@@ -120,6 +121,10 @@ std::string LiftSequenceOptions::Validate() const {
                        num_neighbours);
   if (!(depth_weight >= 0.0))
     return fmt::format("LiftSequenceOptions::depth_weight = {}, wanted >= 0", depth_weight);
+  if (!(trunk_sigma_factor > 0.0 && limb_sigma_factor > 0.0))
+    return fmt::format(
+        "LiftSequenceOptions::trunk_sigma_factor = {}, limb_sigma_factor = {}, wanted > 0",
+        trunk_sigma_factor, limb_sigma_factor);
   return "";
 }
 
@@ -141,7 +146,8 @@ SequenceLifter::SequenceLifter(const PhotoLifter& lifter, const MotionCodebook& 
     : lifter_(lifter),
       codebook_(codebook),
       options_(options),
-      refinement_(lifter.dictionary().skeleton, lifter.dictionary().prior, options.refinement) {
+      refinement_(lifter.dictionary().skeleton, lifter.dictionary().prior, options.refinement),
+      angles_(lifter.dictionary().skeleton) {
   if (const std::string error = options_.Validate(); !error.empty()) throw InputError(error);
   if (codebook.skeleton.NumDofs() != lifter.dictionary().skeleton.NumDofs())
     throw InputError(
@@ -299,8 +305,26 @@ std::vector<LiftedPose> SequenceLifter::Refine(const Run& run, const Skeleton& s
         lifted.camera.scale_px_per_m * lifted.pose.root_in_world_m.head<2>();
     lifted.pose.root_in_world_m.setZero();
     PutOn(skeleton, run.seen[t], &lifted);
+    lifted.angles_sigma_deg = AnglesSigma_deg(refined[t]);
   }
   return together;
+}
+
+// To first order in the angles of the pose.
+Eigen::VectorXd SequenceLifter::AnglesSigma_deg(const RefinedFrame& frame) const {
+  if (frame.covariance.size() == 0) return {};
+  Eigen::MatrixXd by_pose_deg = angles_.DerivativeDeg(LevelFromCam(frame.pose));
+  by_pose_deg.leftCols<3>() *= kLevelFromCam.toRotationMatrix();
+  Eigen::VectorXd sigma_deg = (by_pose_deg * frame.covariance)
+                                  .cwiseProduct(by_pose_deg)
+                                  .rowwise()
+                                  .sum()
+                                  .cwiseMax(0.0)
+                                  .cwiseSqrt();
+  for (Eigen::Index a = 0; a < sigma_deg.size(); ++a)
+    sigma_deg[a] *= IsOfLimb(JointAngles()[static_cast<size_t>(a)]) ? options_.limb_sigma_factor
+                                                                    : options_.trunk_sigma_factor;
+  return sigma_deg;
 }
 
 }  // namespace poselift

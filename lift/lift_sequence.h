@@ -12,6 +12,7 @@
 #include "lift/temporal/motion_codebook.h"
 #include "lift/temporal/segment_views.h"
 #include "lift/temporal/sequence_refinement.h"
+#include "src/joint_angles.h"
 #include "src/progress.h"
 
 namespace poselift {
@@ -27,13 +28,18 @@ struct LiftSequenceOptions {
   // Whether the proportions of the body are found out, where all points are 2D; else
   // they are the standard ones.
   bool find_proportions = true;
+  // Of the angles' standard deviations, to those of the refinement. It takes the errors
+  // of neighbours and labels for independent from frame to frame, which they are not:
+  // bodies do what no neighbour does for a second, with their limbs above all.
+  double trunk_sigma_factor = 2.3;
+  double limb_sigma_factor = 5.2;
 
   std::string Validate() const;  // empty, or which option is wrong and why
 };
 
 struct LiftedSequence {
-  // A frame each. The first pose of a frame is that of the whole sequence; behind
-  // it come the alternatives of the frame by itself.
+  // A frame each. The first pose of a frame is that of the whole sequence, and says how
+  // sure its angles are; behind it come the alternatives of the frame by itself.
   std::vector<LiftResult> frames;
   std::vector<bool> filled;  // there were too few labels for the frame alone
   // One body in all poses of all frames. There is a covariance where its proportions
@@ -68,11 +74,13 @@ class SequenceLifter {
   BodyProportions FindProportions(std::vector<Run>* runs) const;
   std::vector<LiftedPose> Refine(const Run& run, const Skeleton& skeleton,
                                  const GroupVector& log_ratios) const;
+  Eigen::VectorXd AnglesSigma_deg(const RefinedFrame& frame) const;
 
   const PhotoLifter& lifter_;
   const MotionCodebook& codebook_;
   LiftSequenceOptions options_;
   SequenceRefinement refinement_;
+  JointAngleReader angles_;
 };
 
 }  // namespace poselift

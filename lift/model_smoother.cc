@@ -23,13 +23,6 @@ constexpr double kStartCutoff_hz = 3.0;
 // would not see.
 constexpr double kNoiseQuantile = 0.9, kSigmasAtQuantile = 1.645;
 
-// Between world and cam, either way.
-SkeletonPose Turned(SkeletonPose pose) {
-  pose.world_from_root = kLevelFromCam * pose.world_from_root;
-  pose.root_in_world_m = kLevelFromCam * pose.root_in_world_m;
-  return pose;
-}
-
 std::vector<Landmark::Part> Joint(int joint) { return {{joint, 1.0}}; }
 
 // Where a plain filter has the motion; gaps filled by straight lines.
@@ -122,19 +115,19 @@ class ModelSmoother {
     for (int t = span.first; t <= span.last; ++t) {
       const auto i = static_cast<size_t>(t);
       FrameEvidence& frame = evidence.emplace_back();
-      frame.start = Turned(smooth->frames[i]);
+      frame.start = LevelFromCam(smooth->frames[i]);
       frame.camera.scale_px_per_m = 0.0;
       frame.local = MakeLocalPose(*codebook_, nearest[i - static_cast<size_t>(span.first)],
                                   kAsTheRest, options_.local);
       if (IsKnown(motion.frames[i]))
-        frame.measured = PosePrediction{Turned(motion.frames[i]), whitening};
+        frame.measured = PosePrediction{LevelFromCam(motion.frames[i]), whitening};
     }
     SequenceRefinementOptions options = options_.refinement;
     ExpectAccelerations(*smooth, span, &options);
     const SequenceRefinement refinement(smooth->skeleton, {}, options);
     const auto refined = refinement.Solve(evidence, motion.frame_time_s);
     for (size_t i = 0; i < refined.size(); ++i)
-      smooth->frames[i + static_cast<size_t>(span.first)] = Turned(refined[i].pose);
+      smooth->frames[i + static_cast<size_t>(span.first)] = LevelFromCam(refined[i].pose);
   }
 
   std::shared_ptr<const MotionCodebook> codebook_;

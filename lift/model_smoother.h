@@ -17,8 +17,11 @@ struct ModelSmootherOptions {
   int num_neighbours = 50;
   SegmentViewsOptions views{.path_weight = 1.0};
   LocalPoseOptions local;
-  SequenceRefinementOptions refinement{
-      .code_gamma_per_m2 = 0.0, .prior_weight = 0.0, .local_weight = 0.5, .rate_sigma_rad = 0.01};
+  SequenceRefinementOptions refinement{.code_gamma_per_m2 = 0.0,
+                                       .prior_weight = 0.0,
+                                       .local_weight = 0.5,
+                                       .rate_sigma_rad = 0.01,
+                                       .covariances = false};
   // Noise is estimated (PoseNoise), and taken as no less: radians and metres.
   double least_noise = 0.002;
 

@@ -150,6 +150,31 @@ void PlaceOnGrid(const std::vector<SkeletonPose>& poses, const std::vector<doubl
   }
 }
 
+// Those of JointAngles() among the values; NaN where one is missing.
+Eigen::VectorXd InOrder(const std::vector<std::pair<std::string, double>>& values) {
+  Eigen::VectorXd ordered = Eigen::VectorXd::Constant(std::ssize(JointAngles()), kUnknown);
+  for (const auto& [name, value] : values)
+    for (Eigen::Index a = 0; a < ordered.size(); ++a)
+      if (JointAngles()[a].name == name) ordered[a] = value;
+  return ordered;
+}
+
+void KeepSureAngles(const std::vector<const PersonPose*>& people, PosesMotion* result) {
+  if (std::all_of(people.begin(), people.end(), [](const PersonPose* person) {
+        return !person || person->angles_sigma_deg.empty();
+      }))
+    return;
+  result->angles_deg = Eigen::MatrixXd::Constant(std::ssize(JointAngles()),
+                                                 std::ssize(result->source_frames), kUnknown);
+  result->angles_sigma_deg = result->angles_deg;
+  for (Eigen::Index k = 0; k < result->angles_deg.cols(); ++k) {
+    const int source = result->source_frames[static_cast<size_t>(k)];
+    if (source < 0 || !people[source]) continue;
+    result->angles_deg.col(k) = InOrder(people[source]->angles_deg);
+    result->angles_sigma_deg.col(k) = InOrder(people[source]->angles_sigma_deg);
+  }
+}
+
 // World's origin on the floor, below the first known pelvis.
 void StandOnFloor(PosesMotion* result) {
   std::vector<double> lowest_m;
@@ -188,6 +213,7 @@ PosesMotion PosesToMotion(const Poses& poses, const Skeleton& skeleton,
   result.camera = FindCamera(people);
   PlaceOnGrid(SolveFrames(people, own, progress, &result), times_s, grid, own, &result);
   StandOnFloor(&result);
+  if (!result.is_resampled) KeepSureAngles(people, &result);
 
   Polyline scales_px_per_m;
   for (size_t f = 0; f < people.size(); ++f)

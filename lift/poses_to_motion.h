@@ -51,6 +51,9 @@ struct PosesMotion {
   std::vector<double> times_s;
   std::vector<std::string> images;
   std::vector<bool> is_filled;  // by its status; with with_filled alone
+  // JointAngles() x frames as the poses name them, and how sure they are: joints do not
+  // tell every angle. NaN where they do not say; empty where they never say how sure.
+  Eigen::MatrixXd angles_deg, angles_sigma_deg;
   CameraTrack camera;
   double worst_ik_rms_m = 0.0;  // how far the skeleton's joints are from the poses'
   int num_ik_failures = 0;      // poses that no skeleton fits: unknown frames too

@@ -215,6 +215,10 @@ const std::vector<JointAngle>& JointAngles() {
   return kAngles;
 }
 
+bool IsOfLimb(const JointAngle& angle) {
+  return angle.name.starts_with("left_") || angle.name.starts_with("right_");
+}
+
 JointAngleReader::JointAngleReader(const Skeleton& skeleton) : skeleton_(skeleton) {
   for (const Row& row : Rows()) {
     const bool is_root = row.parent.empty();
@@ -235,6 +239,25 @@ Eigen::VectorXd JointAngleReader::ReadDeg(const SkeletonPose& pose) const {
 Eigen::VectorXd JointAngleReader::ReadDeg(const SkeletonPose& pose,
                                           const Eigen::VectorXd& previous_deg) const {
   return Read(pose, &previous_deg);
+}
+
+Eigen::MatrixXd JointAngleReader::DerivativeDeg(const SkeletonPose& pose) const {
+  constexpr double kStep = 1e-5;
+  const Eigen::VectorXd here_deg = ReadDeg(pose);
+  Eigen::MatrixXd derivative_deg(here_deg.size(), 3 + pose.dofs.size());
+  const auto moved_deg = [&](Eigen::Index column, double step) {
+    SkeletonPose moved = pose;
+    if (column < 3)
+      moved.world_from_root =
+          Eigen::AngleAxisd(step, Eigen::Vector3d::Unit(column)) * pose.world_from_root;
+    else
+      moved.dofs[column - 3] += step;
+    return ReadDeg(moved, here_deg);
+  };
+  for (Eigen::Index column = 0; column < derivative_deg.cols(); ++column)
+    derivative_deg.col(column) =
+        (moved_deg(column, kStep) - moved_deg(column, -kStep)) / (2.0 * kStep);
+  return derivative_deg;
 }
 
 Eigen::VectorXd JointAngleReader::Read(const SkeletonPose& pose,

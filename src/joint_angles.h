@@ -36,6 +36,8 @@ struct JointAngle {
 
 const std::vector<JointAngle>& JointAngles();
 
+bool IsOfLimb(const JointAngle& angle);  // of an arm or a leg; else of pelvis, spine, neck or head
+
 class JointAngleReader {
  public:
   // Throws InputError when the skeleton lacks a bone of the CMU skeleton.
@@ -47,6 +49,10 @@ class JointAngleReader {
   // The same, of all equal answers the one nearest to the frame before: no
   // jumps of 360 degrees. Angles of a whole turn and more are possible.
   Eigen::VectorXd ReadDeg(const SkeletonPose& pose, const Eigen::VectorXd& previous_deg) const;
+
+  // d ReadDeg / d (w, dofs), angles x (3 + D), degrees per radian, where w turns the
+  // root in world: Exp(w) world_from_root. By central differences.
+  Eigen::MatrixXd DerivativeDeg(const SkeletonPose& pose) const;
 
  private:
   struct Segment {

@@ -45,6 +45,8 @@ struct PersonPose {
   Eigen::Quaterniond rotation_cam_from_body{kUnknown, kUnknown, kUnknown, kUnknown};
 
   std::vector<std::pair<std::string, double>> angles_deg;  // "left_elbow.flexion", degrees
+  // Their standard deviations; empty when nobody knows.
+  std::vector<std::pair<std::string, double>> angles_sigma_deg;
 
   double reprojection_rms_px = kUnknown;
   std::vector<std::pair<std::string, double>> per_joint_px;  // landmark, its reprojection error

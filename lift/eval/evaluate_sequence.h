@@ -30,11 +30,19 @@ struct SequenceFilter {
   std::function<std::vector<Pose3>(const std::vector<Pose3>&, double frame_time_s)> smooth;
 };
 
+// What a method makes of a sequence.
+struct SequenceEstimate {
+  // For every frame: 23 joints in cam, pelvis at the origin, metres.
+  std::vector<Pose3> joints_in_cam_m;
+  // Of a method that says how sure it is: JointAngles() x frames, read in the world of a
+  // level camera, and their standard deviations, NaN where there are none. Else empty.
+  Eigen::MatrixXd angles_deg = {}, angles_sigma_deg = {};
+};
+
 struct NamedSequenceMethod {
   std::string name;
-  // A pose for every frame: 23 joints in cam, pelvis at the origin, metres. Called by
-  // several threads at once.
-  std::function<std::vector<Pose3>(const std::vector<Observation>&, double frame_time_s)> lift;
+  // Called by several threads at once.
+  std::function<SequenceEstimate(const std::vector<Observation>&, double frame_time_s)> lift;
   std::vector<SequenceFilter> filters = {};
 };
 
@@ -59,7 +67,10 @@ inline constexpr int kCam_mm = 0,  // CamError_mm
     // Root mean square of `bones` over the groups: proportions against the subject's.
     kBones_percent = 6,
                      kMsPerFrame = 7,  // of processor time, the lift before a filter included
-    kNumMeasures = 8;
+    // Of methods that say how sure they are, else NaN, three each: the shares of the true
+    // angles that are within one and within two standard deviations of those found, and
+    // what two thirds (68.27 %) of the errors are within, in standard deviations.
+    kTrunkSigmas = 8, kLimbSigmas = 11, kNumMeasures = 14;
 }  // namespace measure
 using SequenceErrors = Eigen::Array<double, measure::kNumMeasures, 1>;
 const std::array<std::string, measure::kNumMeasures>& MeasureNames();  // "cam_mm", ...

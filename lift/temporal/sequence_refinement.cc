@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "lift/temporal/difference_cost.h"
+#include "lift/temporal/marginal_covariances.h"
 #include "lift/temporal/proportions_cost.h"
 #include "src/input_error.h"
 
@@ -120,9 +121,35 @@ class PieceProblem {
     return {*log_ratios_, AlikeFrames() * factors.solve(units).bottomRows<kNumBoneGroups>()};
   }
 
+  // Where the solve ended; of frames that are held they are empty.
+  std::vector<Eigen::MatrixXd> Covariances() {
+    ceres::Problem::EvaluateOptions evaluation;
+    std::vector<int> sizes;
+    for (const auto& frame : unknowns_) {
+      sizes.push_back(0);
+      for (double* block :
+           {frame->rotation(), frame->dofs(), frame->root(), frame->camera.data()}) {
+        if (problem_.IsParameterBlockConstant(block)) continue;
+        evaluation.parameter_blocks.push_back(block);
+        sizes.back() += problem_.ParameterBlockTangentSize(block);
+      }
+    }
+    ceres::CRSMatrix jacobian;
+    if (!problem_.Evaluate(evaluation, nullptr, nullptr, nullptr, &jacobian)) return {};
+    std::vector<Eigen::MatrixXd> covariances = MarginalCovariances(jacobian, sizes);
+    for (Eigen::MatrixXd& covariance : covariances) {
+      if (covariance.size() == 0) continue;
+      const int size = 3 + body_.num_dofs;
+      covariance = covariance.topLeftCorner(size, size).eval();
+      covariance.leftCols<3>() *= 2.0;  // the manifold's turns are half as large
+      covariance.topRows<3>() *= 2.0;
+    }
+    return covariances;
+  }
+
   RefinedFrame Result(size_t i) const {
     const Unknowns& unknowns = *unknowns_[i];
-    RefinedFrame frame{unknowns.pose, {}};
+    RefinedFrame frame{unknowns.pose, {}, {}};
     frame.pose.world_from_root.normalize();
     frame.camera.cam_from_body = frame.pose.world_from_root.toRotationMatrix();
     frame.camera.scale_px_per_m = std::exp(unknowns.camera[0]);
@@ -338,7 +365,7 @@ std::vector<RefinedFrame> SequenceRefinement::SolvePieces(const std::vector<Fram
                                                           const Articulation& seen,
                                                           BodyProportions* proportions) const {
   std::vector<RefinedFrame> refined;
-  for (const FrameEvidence& frame : frames) refined.push_back({frame.start, frame.camera});
+  for (const FrameEvidence& frame : frames) refined.push_back({frame.start, frame.camera, {}});
   const auto piece = static_cast<size_t>(options_.piece_frames);
   const auto overlap = static_cast<size_t>(options_.overlap_frames);
   for (size_t first = 0; first < frames.size(); first += piece) {
@@ -353,7 +380,17 @@ std::vector<RefinedFrame> SequenceRefinement::SolvePieces(const std::vector<Fram
       if (t < first) problem.HoldLast();
     }
     if (problem.Solve()) {
-      for (size_t t = first; t < end; ++t) refined[t] = problem.Result(t - held_from);
+      // Beside frames that are held, the piece before knows better how sure they are.
+      const size_t sure_from = first == 0 ? 0 : first + overlap / 2;
+      std::vector<Eigen::MatrixXd> covariances;
+      if (options_.covariances && !proportions) covariances = problem.Covariances();
+      covariances.resize(end - held_from);
+      for (size_t t = first; t < end; ++t) {
+        Eigen::MatrixXd covariance =
+            std::move(t < sure_from ? refined[t].covariance : covariances[t - held_from]);
+        refined[t] = problem.Result(t - held_from);
+        refined[t].covariance = std::move(covariance);
+      }
       if (proportions) *proportions = problem.Proportions();
     }
     if (is_last) break;

@@ -39,6 +39,7 @@ struct SequenceRefinementOptions {
   double limit_stiffness = 10.0;  // per radian beyond a dof's limits
   // Frames within this time are wrong alike: for a body's proportions they count as one.
   double alike_s = 2.0;
+  bool covariances = true;  // RefinedFrame::covariance is wanted
   double function_tolerance = 1e-4;
   int max_iterations = 30;
   // Long sequences are solved piece by piece: memory is that of a piece. Each is
@@ -66,6 +67,10 @@ struct FrameEvidence {
 struct RefinedFrame {
   SkeletonPose pose;  // its world is cam; without 3D points and tags the root is at the origin
   WeakCamera camera;
+  // Of (w, dofs), 3 + D: how sure they are by the Gaussian approximation of the
+  // posterior at its maximum (Laplace), where w turns the root in cam, Exp(w) R.
+  // Empty where the solver breaks down, and unless the options want it.
+  Eigen::MatrixXd covariance;
 };
 
 // The MAP of a whole sequence, Eq. (2) of the motion paper with frames to come as
@@ -80,8 +85,9 @@ struct RefinedFrame {
 //            + the root's second differences
 //
 // by Levenberg-Marquardt; the normal equations are a band, so the cost is linear
-// in frames. What was learned of poses is about the standard skeleton, so f(q) there
-// is that of the standard skeleton at the angles of q; labels see the body itself.
+// in frames, that of the covariances too (marginal_covariances.h). What was learned of
+// poses is about the standard skeleton, so f(q) there is that of the standard skeleton
+// at the angles of q; labels see the body itself.
 class SequenceRefinement {
  public:
   // Throws InputError for wrong options.

@@ -23,7 +23,7 @@ constexpr std::array<const char*, 8> kColors = {"#0072b2", "#d55e00", "#009e73",
 constexpr std::array<const char*, 4> kDashes = {"", "7 4", "2 3", "9 3 2 3"};
 constexpr double kLeft_px = 64, kRight_px = 20, kTop_px = 44, kAxis_px = 46, kStrip_px = 18,
                  kLegendRow_px = 22, kFont_px = 13, kSample_px = 30;
-constexpr double kSigmasOfBand = 2.0;
+constexpr double kBandOpacity = 0.18;
 
 template <typename... Args>
 void Put(std::string* svg, fmt::format_string<Args...> format, Args&&... args) {
@@ -109,7 +109,7 @@ class Drawing {
  private:
   static double Band_deg(const AngleCurve& curve, Eigen::Index i) {
     if (curve.sigmas_deg.size() == 0 || !std::isfinite(curve.sigmas_deg[i])) return 0.0;
-    return kSigmasOfBand * curve.sigmas_deg[i];
+    return curve.sigmas_deg[i];
   }
   double X(double time_s) const {
     return kLeft_px + (plot_.width_px - kLeft_px - kRight_px) * (time_s - times_s_.low) /
@@ -201,7 +201,7 @@ class Drawing {
       for (Eigen::Index i = to; i-- > from;)
         Put(svg, "L{:.2f} {:.2f}", X(curve.times_s[i]),
             Y(curve.values_deg[i] - Band_deg(curve, i)));
-      Put(svg, "Z\" fill=\"{}\" fill-opacity=\"0.18\"/>\n", ColorOf(curve));
+      Put(svg, "Z\" fill=\"{}\" fill-opacity=\"{}\"/>\n", ColorOf(curve), kBandOpacity);
     });
   }
 
@@ -239,6 +239,15 @@ class Drawing {
       const double at_px = next(curve.name);
       Put(svg, "<path d=\"M{:.2f} {:g}h{:g}\" stroke=\"{}\" stroke-width=\"2.2\"{}/>\n", at_px,
           y_px, kSample_px, ColorOf(curve), DashOf(curve));
+    }
+    const auto has_band = [](const AngleCurve& curve) { return curve.sigmas_deg.size() > 0; };
+    const auto banded = std::find_if(plot_.curves.begin(), plot_.curves.end(), has_band);
+    if (banded != plot_.curves.end()) {
+      const double at_px = next("± 1 standard deviation");
+      Put(svg,
+          "<rect x=\"{:.2f}\" y=\"{:g}\" width=\"{:g}\" height=\"12\" fill=\"{}\" "
+          "fill-opacity=\"{}\"/>\n",
+          at_px, y_px - 6, kSample_px, ColorOf(*banded), kBandOpacity);
     }
     if (!plot_.shaded.empty()) {
       const double at_px = next(plot_.shaded_name);

@@ -18,7 +18,7 @@ struct AngleCurve {
   std::string name;
   Eigen::VectorXd times_s;
   Eigen::VectorXd values_deg;  // NaN leaves a gap
-  Eigen::VectorXd sigmas_deg;  // a band of two on either side; empty: none
+  Eigen::VectorXd sigmas_deg;  // a band of one on either side; empty: none; NaN: not there
   int color_index = 0;
   int dash_index = 0;
 };

@@ -49,15 +49,15 @@ void AppendNumberField(double value, int decimals, std::string* out) {
   if (std::isfinite(value)) AppendJsonNumber(value, decimals, out);
 }
 
-}  // namespace
+using NamedValues = std::vector<std::pair<std::string, double>>;
 
-std::string AnglesCsv(const Poses& poses) {
+std::string Table(const Poses& poses, NamedValues PersonPose::*values) {
   const std::vector<const PersonPose*> rows = FollowFirstPerson(poses);
   std::unordered_map<std::string_view, size_t> column_of_name;
   std::string text = "frame,time_s";
   for (const PersonPose* person : rows) {
     if (!person) continue;
-    for (const auto& [name, value] : person->angles_deg) {
+    for (const auto& [name, value] : person->*values) {
       if (!column_of_name.emplace(name, column_of_name.size()).second) continue;
       text += ',';
       AppendField(name, &text);
@@ -68,7 +68,7 @@ std::string AnglesCsv(const Poses& poses) {
   for (size_t f = 0; f < rows.size(); ++f) {
     std::fill(row.begin(), row.end(), kUnknown);
     if (rows[f])
-      for (const auto& [name, value] : rows[f]->angles_deg) row[column_of_name.at(name)] = value;
+      for (const auto& [name, value] : rows[f]->*values) row[column_of_name.at(name)] = value;
     text += std::to_string(f) + ",";
     AppendNumberField(poses.frames[f].time_s.value_or(kUnknown), kTimeDecimals, &text);
     for (const double value : row) {
@@ -80,8 +80,20 @@ std::string AnglesCsv(const Poses& poses) {
   return text;
 }
 
+}  // namespace
+
+std::string AnglesCsv(const Poses& poses) { return Table(poses, &PersonPose::angles_deg); }
+
+std::string AnglesSigmaCsv(const Poses& poses) {
+  return Table(poses, &PersonPose::angles_sigma_deg);
+}
+
 void WriteAnglesCsv(const Poses& poses, const std::filesystem::path& path) {
   WriteFileAtomically(path, AnglesCsv(poses));
+}
+
+void WriteAnglesSigmaCsv(const Poses& poses, const std::filesystem::path& path) {
+  WriteFileAtomically(path, AnglesSigmaCsv(poses));
 }
 
 }  // namespace poselift

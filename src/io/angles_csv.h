@@ -21,7 +21,12 @@ namespace poselift {
 // Throws InputError when the file cannot be written.
 void WriteAnglesCsv(const Poses& poses, const std::filesystem::path& path);
 
-// The text that WriteAnglesCsv writes.
+// angles_sigma.csv: a table of the same shape with the angles' standard deviations,
+// degrees.
+void WriteAnglesSigmaCsv(const Poses& poses, const std::filesystem::path& path);
+
+// The texts that these write.
 std::string AnglesCsv(const Poses& poses);
+std::string AnglesSigmaCsv(const Poses& poses);
 
 }  // namespace poselift

@@ -115,6 +115,10 @@ void AppendPerson(const PersonPose& person, std::string* out) {
                  kQuaternionDecimals);
   object.Key("angles_deg");
   AppendNamed(person.angles_deg, kDegreeDecimals, out);
+  if (!person.angles_sigma_deg.empty()) {
+    object.Key("angles_sigma_deg");
+    AppendNamed(person.angles_sigma_deg, kDegreeDecimals, out);
+  }
   object.Number("reprojection_rms_px", person.reprojection_rms_px, kPixelDecimals);
   object.Key("per_joint_px");
   AppendNamed(person.per_joint_px, kPixelDecimals, out);
@@ -235,6 +239,8 @@ PersonPose ReadPerson(const JsonValue& json) {
   if (const JsonValue* rotation = json.Find("rotation_cam_from_body"))
     person.rotation_cam_from_body = ReadRotation(*rotation);
   if (const JsonValue* angles = json.Find("angles_deg")) person.angles_deg = ReadNamed(*angles);
+  if (const JsonValue* sigmas = json.Find("angles_sigma_deg"))
+    person.angles_sigma_deg = ReadNamed(*sigmas);
   person.reprojection_rms_px = ReadNumberOrUnknown(json, "reprojection_rms_px");
   if (const JsonValue* errors = json.Find("per_joint_px")) person.per_joint_px = ReadNamed(*errors);
   if (const JsonValue* atoms = json.Find("atoms"))

@@ -220,6 +220,27 @@ TEST_F(LiftSequenceTest, KeepsTheStandardBonesWhenTold) {
   EXPECT_EQ(BoneLengths(lifted.skeleton), BoneLengths(dictionary_.skeleton));
 }
 
+TEST_F(LiftSequenceTest, SaysHowSureTheAnglesAre) {
+  See(12, 2.0);
+  const LiftedSequence once =
+      SequenceLifter(lifter_, codebook_, {.trunk_sigma_factor = 1.0, .limb_sigma_factor = 1.0})
+          .LiftSequence(frames_, kFrameTime_s);
+  const LiftedSequence twice =
+      SequenceLifter(lifter_, codebook_, {.trunk_sigma_factor = 1.0, .limb_sigma_factor = 2.0})
+          .LiftSequence(frames_, kFrameTime_s);
+  for (size_t t = 0; t < frames_.size(); ++t) {
+    const Eigen::VectorXd& sigma_deg = once.frames[t].poses.front().angles_sigma_deg;
+    ASSERT_EQ(sigma_deg.size(), std::ssize(JointAngles()));
+    EXPECT_GT(sigma_deg.minCoeff(), 0.05);
+    EXPECT_LT(sigma_deg.maxCoeff(), 60.0);
+    for (Eigen::Index a = 0; a < sigma_deg.size(); ++a)
+      EXPECT_NEAR(twice.frames[t].poses.front().angles_sigma_deg[a],
+                  (IsOfLimb(JointAngles()[static_cast<size_t>(a)]) ? 2.0 : 1.0) * sigma_deg[a],
+                  1e-9);
+    EXPECT_EQ(once.frames[t].poses.back().angles_sigma_deg.size(), 0);  // of the frame alone
+  }
+}
+
 TEST_F(LiftSequenceTest, SameInputSameBytes) {
   See(8, 2.0);
   const SequenceLifter lifter(lifter_, codebook_);
@@ -234,6 +255,7 @@ TEST_F(LiftSequenceTest, RefusesWhatIsNoVideo) {
   EXPECT_THROW(lifter.LiftSequence({}, 0.5), InputError);
   EXPECT_THROW(lifter.LiftSequence({}, 0.0), InputError);
   EXPECT_THROW(SequenceLifter(lifter_, codebook_, {.num_neighbours = 0}), InputError);
+  EXPECT_THROW(SequenceLifter(lifter_, codebook_, {.limb_sigma_factor = 0.0}), InputError);
 }
 
 }  // namespace

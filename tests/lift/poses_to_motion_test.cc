@@ -12,6 +12,7 @@
 
 #include "src/forward_kinematics.h"
 #include "src/input_error.h"
+#include "src/joint_angles.h"
 #include "tests/support/cmu_like_skeleton.h"
 #include "tests/support/planted_walk.h"
 #include "tests/support/support.h"
@@ -113,6 +114,25 @@ TEST(PosesToMotion, FramesWithoutAPoseAreUnknown) {
   EXPECT_TRUE(IsKnown(motion.motion.frames[6]));
   EXPECT_TRUE(motion.is_filled[6]);
   EXPECT_FALSE(motion.is_filled[7]);
+}
+
+TEST(PosesToMotion, AnglesStayAsTheyAreNamedWhereTheirSigmasAreKnown) {
+  Poses poses = PlantPoses(8, true);
+  EXPECT_EQ(PosesToMotion(poses, testing::TrimmedCmuLikeSkeleton()).angles_sigma_deg.size(), 0);
+  poses.frames[3].people[0].angles_sigma_deg = {{"left_knee.flexion", 4.0}};
+  poses.frames.erase(poses.frames.begin() + 1);  // a place without a frame
+  const PosesMotion motion = PosesToMotion(poses, testing::TrimmedCmuLikeSkeleton());
+  ASSERT_EQ(motion.angles_sigma_deg.cols(), 8);
+  const auto& names = JointAngles();
+  for (Eigen::Index a = 0; a < motion.angles_deg.rows(); ++a) {
+    EXPECT_EQ(motion.angles_deg(a, 3), poses.frames[2].people[0].angles_deg[a].second);
+    EXPECT_TRUE(std::isnan(motion.angles_deg(a, 1)));
+    EXPECT_TRUE(std::isnan(motion.angles_sigma_deg(a, 4)));
+    if (names[a].name == "left_knee.flexion")
+      EXPECT_EQ(motion.angles_sigma_deg(a, 3), 4.0);
+    else
+      EXPECT_TRUE(std::isnan(motion.angles_sigma_deg(a, 3)));
+  }
 }
 
 TEST(PosesToMotion, UnevenTimesAreResampledAndSaidSo) {

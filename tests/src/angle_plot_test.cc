@@ -90,18 +90,20 @@ TEST(AnglePlot, NaNLeavesAGapAndALoneValueIsADot) {
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 
-TEST(AnglePlot, TheBandIsTwoSigmasOnEitherSide) {
+TEST(AnglePlot, TheBandIsOneSigmaOnEitherSideAndTheLegendSaysSo) {
   AnglePlot plot;
   plot.curves = {Curve("a", Eigen::Vector2d(0.0, 10.0))};
   EXPECT_EQ(Count(AnglePlotSvg(plot), "fill-opacity"), 0);
+  EXPECT_THAT(AnglePlotSvg(plot), Not(HasSubstr("deviation")));
   plot.curves[0].sigmas_deg = Eigen::Vector2d(5.0, 5.0);
   const std::string svg = AnglePlotSvg(plot);
-  EXPECT_EQ(Count(svg, "fill-opacity"), 1);
+  EXPECT_EQ(Count(svg, "fill-opacity"), 2);  // the band, and in the legend
+  EXPECT_THAT(svg, HasSubstr(">± 1 standard deviation<"));
   const std::vector<Eigen::Vector2d> curve = PointsOfCurve(svg);
   const double px_per_deg = (curve[0].y() - curve[1].y()) / 10.0;
   std::smatch found;
   ASSERT_TRUE(std::regex_search(svg, found, std::regex("<path d=\"M[0-9.]+ ([0-9.]+)L")));
-  EXPECT_NEAR((curve[0].y() - std::stod(found[1])) / px_per_deg, 10.0, 0.01);
+  EXPECT_NEAR((curve[0].y() - std::stod(found[1])) / px_per_deg, 5.0, 0.01);
 }
 
 TEST(AnglePlot, SpansAreShadedAndStripsNamed) {

@@ -17,6 +17,8 @@
 #include "src/units.h"
 #include "tests/support/cmu_like_skeleton.h"
 #include "tests/support/mutation.h"
+#include "tests/support/planted_pose.h"
+#include "tests/support/random_pose.h"
 #include "tests/support/support.h"
 
 namespace poselift {
@@ -320,6 +322,25 @@ TEST(JointAngles, FollowACartwheelAndAnArmOverTheTop) {
       (angles_deg.rightCols(50) - angles_deg.leftCols(50)).cwiseAbs().maxCoeff();
   EXPECT_NEAR(largest_step, 7, 1e-6);
   EXPECT_NEAR(angles_deg(1, 50), 350, 1e-6);
+}
+
+TEST(JointAngles, DerivativeSaysWhereASmallStepLeads) {
+  auto rng = TestRng();
+  const Skeleton skeleton = TrimmedCmuLikeSkeleton();
+  const JointAngleReader reader(skeleton);
+  for (int trial = 0; trial < 10; ++trial) {
+    const SkeletonPose pose = testing::RandomPoseWithinLimits(skeleton, 0.4, &rng);
+    const Eigen::VectorXd step = 1e-4 * testing::RandomMatrix(3 + pose.dofs.size(), 1, &rng);
+    SkeletonPose moved = pose;
+    const Eigen::Vector3d turn = step.head<3>();
+    moved.world_from_root =
+        Eigen::AngleAxisd(turn.norm(), turn.normalized()) * pose.world_from_root;
+    moved.dofs += step.tail(pose.dofs.size());
+    const Eigen::VectorXd here_deg = reader.ReadDeg(pose);
+    const Eigen::VectorXd change_deg = reader.ReadDeg(moved, here_deg) - here_deg;
+    EXPECT_TRUE(MatrixNear(reader.DerivativeDeg(pose) * step, change_deg, 1e-3));
+    EXPECT_GT(change_deg.norm(), 0.01);
+  }
 }
 
 TEST(JointAngles, OfAWholeSkeletonAreThoseOfTheTrimmedOne) {

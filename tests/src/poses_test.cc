@@ -92,6 +92,7 @@ TEST(PosesJson, ReadBackIsTheSameUpToRounding) {
   EXPECT_EQ(person.scale_px_per_m, expected.scale_px_per_m);
   EXPECT_TRUE(MatrixNear(person.translation_px, expected.translation_px, 0.51e-3));
   EXPECT_LT(person.rotation_cam_from_body.angularDistance(expected.rotation_cam_from_body), 1e-7);
+  EXPECT_TRUE(person.angles_sigma_deg.empty());
   ASSERT_EQ(person.angles_deg.size(), 1u);  // the unknown one is not in the file
   EXPECT_EQ(person.angles_deg[0], expected.angles_deg[0]);
   EXPECT_EQ(person.reprojection_rms_px, 1.7);
@@ -103,6 +104,15 @@ TEST(PosesJson, ReadBackIsTheSameUpToRounding) {
   EXPECT_EQ(failed.message, "found 2 joints, wanted 4");
   EXPECT_TRUE(failed.joints_in_cam_m.array().isNaN().all());
   EXPECT_TRUE(std::isnan(failed.scale_px_per_m));
+}
+
+TEST(PosesJson, SaysHowSureAnglesAreWhereThatIsKnown) {
+  Poses poses = MadeUpPoses();
+  EXPECT_THAT(PosesJson(poses), Not(HasSubstr("sigma")));
+  poses.frames[0].people[0].angles_sigma_deg = {{"left_elbow.flexion", 2.5}};
+  const Poses back = ReadPosesJson(WriteScratch("poses.json", PosesJson(poses)));
+  EXPECT_EQ(back.frames[0].people[0].angles_sigma_deg, poses.frames[0].people[0].angles_sigma_deg);
+  EXPECT_TRUE(back.frames[1].people[0].angles_sigma_deg.empty());
 }
 
 TEST(PosesJson, OfThousandsOfFramesGrowsWithTheirNumber) {
@@ -175,6 +185,15 @@ TEST(AnglesCsv, FollowsTheFirstPersonAndLeavesTheUnknownEmpty) {
   const auto path = testing::ScratchDir() / "angles.csv";
   WriteAnglesCsv(poses, path);
   EXPECT_EQ(FileText(path), AnglesCsv(poses));
+}
+
+TEST(AnglesCsv, TheSigmasHaveATableOfTheirOwn) {
+  Poses poses = MadeUpPoses();
+  const std::string angles = AnglesCsv(poses);
+  poses.frames[0].people[0].angles_sigma_deg = {{"left_elbow.flexion", 2.5}};
+  EXPECT_EQ(AnglesCsv(poses), angles);
+  EXPECT_EQ(AnglesSigmaCsv(poses),
+            "frame,time_s,left_elbow.flexion\r\n0,0,2.5\r\n1,0.033333,\r\n2,,\r\n");
 }
 
 TEST(AnglesCsv, OfNobodyHasOnlyFrames) {

@@ -12,11 +12,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lift/dictionary_file.h"
 #include "lift/eval/evaluate_sequence.h"
 #include "lift/eval/sequence_error.h"
+#include "lift/lift_sequence.h"
 #include "lift/temporal/motion_codebook_file.h"
 #include "lift/temporal/motion_database.h"
 #include "lift/temporal/resample.h"
@@ -47,6 +49,7 @@ struct Options {
   std::vector<std::string> methods;  // with their filters; empty: all
   size_t max_frames = 150;
   EvaluateSequenceOptions evaluation;
+  LiftSequenceOptions together;
 };
 
 // The subjects' motions; a trial's name begins with its subject's.
@@ -108,7 +111,8 @@ std::vector<SequenceTrial> LoadTrials(const std::vector<MotionSource>& sources,
 std::vector<NamedSequenceMethod> WantedMethods(const Dictionary& dictionary,
                                                const MotionCodebook& codebook,
                                                const Options& options) {
-  std::vector<NamedSequenceMethod> methods = SequenceMethods(dictionary, codebook);
+  std::vector<NamedSequenceMethod> methods =
+      SequenceMethods(dictionary, codebook, options.together);
   if (options.methods.empty()) return methods;
   for (const std::string& name : options.methods)
     if (std::none_of(methods.begin(), methods.end(),
@@ -242,6 +246,13 @@ CLI::App* AddEvaluateSequence(CLI::App* app, Run* run) {
   command->add_option("--missing", evaluation.view.missing_share, "Share of the labels left out")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  LiftSequenceOptions& together = options->together;
+  for (const auto& [name, factor] :
+       {std::pair{"--trunk-sigma-factor", &together.trunk_sigma_factor},
+        {"--limb-sigma-factor", &together.limb_sigma_factor}})
+    command->add_option(name, *factor, "Of the standard deviations that poselift gives its angles")
+        ->check(CLI::Range(1e-3, 1e3))
+        ->capture_default_str();
   command->add_option("--seed", evaluation.seed, "Of cameras, noise and missing labels")
       ->capture_default_str();
   *run = [options] { return Evaluate(*options); };

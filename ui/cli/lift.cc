@@ -115,6 +115,7 @@ void WriteResults(const LiftedLabels& lifted, const Labels& labels, const Skelet
   const fs::path out = options.out;
   WritePosesJson(lifted.poses, out / "poses.json");
   WriteAnglesCsv(lifted.poses, out / "angles.csv");
+  if (is_motion) WriteAnglesSigmaCsv(lifted.poses, out / "angles_sigma.csv");
   if (!AnyUsable(lifted)) return;
   const Motion motion = is_motion ? ToMotionOverTime(lifted, skeleton)
                                   : ToMotion(lifted, skeleton, FrameTime_s(labels, options.fps));
@@ -221,9 +222,9 @@ CLI::App* AddLift(CLI::App* app, Run* run) {
   CLI::App* command =
       app->add_subcommand("lift", "From labelled pictures to 3D poses with joint angles");
   command->footer(
-      "Writes poses.json, poses.bvh, poses.amc with poses.asf, angles.csv and, for each picture,\n"
-      "NAME.overlay.png and NAME.view.png, for a video NAME.strip.png and the labels of all\n"
-      "frames, labels.json.\n"
+      "Writes poses.json, poses.bvh, poses.amc with poses.asf, angles.csv, for frames with times\n"
+      "angles_sigma.csv (how sure the angles are), and, for each picture, NAME.overlay.png and\n"
+      "NAME.view.png, for a video NAME.strip.png and the labels of all frames, labels.json.\n"
       "Examples:\n  poselift lift skier.jpg --labels skier.coco.json --out out/\n"
       "  poselift lift walk.mp4 --labels walk.labels.json --out out/");
   command->add_option("INPUT", options->inputs,

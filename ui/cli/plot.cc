@@ -90,21 +90,24 @@ std::vector<TimeSpan> TimesOf(const std::vector<FrameSpan>& spans, const PosesMo
 // The curves of one motion; every angle has a colour and every motion its
 // dashes, or a colour where there is but one angle.
 void AddCurves(const PosesMotion& motion, size_t place, const Options& options, AnglePlot* plot) {
-  const Eigen::MatrixXd angles_deg = AnglesOf(motion.motion);
+  const bool has_bands = motion.angles_sigma_deg.size() > 0;
+  const Eigen::MatrixXd angles_deg = has_bands ? motion.angles_deg : AnglesOf(motion.motion);
   Eigen::VectorXd times_s(angles_deg.cols());
   for (Eigen::Index t = 0; t < times_s.size(); ++t)
     times_s[t] = TimeOf(motion, static_cast<int>(t));
   const bool by_color = options.angles.size() == 1;
   const std::string file = fs::path(options.motions[place]).filename().string();
-  for (size_t a = 0; a < options.angles.size(); ++a)
-    plot->curves.push_back({.name = options.motions.size() == 1
-                                        ? options.angles[a]
-                                        : fmt::format("{}, {}", options.angles[a], file),
-                            .times_s = times_s,
-                            .values_deg = angles_deg.row(IndexOf(options.angles[a])),
-                            .sigmas_deg = {},
-                            .color_index = static_cast<int>(by_color ? place : a),
-                            .dash_index = static_cast<int>(by_color ? 0 : place)});
+  for (size_t a = 0; a < options.angles.size(); ++a) {
+    const Eigen::Index row = IndexOf(options.angles[a]);
+    AngleCurve& curve = plot->curves.emplace_back();
+    curve.name = options.motions.size() == 1 ? options.angles[a]
+                                             : fmt::format("{}, {}", options.angles[a], file);
+    curve.times_s = times_s;
+    curve.values_deg = angles_deg.row(row);
+    if (has_bands) curve.sigmas_deg = motion.angles_sigma_deg.row(row);
+    curve.color_index = static_cast<int>(by_color ? place : a);
+    curve.dash_index = static_cast<int>(by_color ? 0 : place);
+  }
 }
 
 int Plot(const Options& options) {
@@ -131,10 +134,13 @@ CLI::App* AddPlot(CLI::App* app, Run* run) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand("plot", "Draw joint angles of motions over time, as SVG");
   command->footer(
-      "The angles are those of docs/ANGLES.md.\n"
+      "The angles are those of docs/ANGLES.md. Where poses.json says how sure they are, a band of\n"
+      "one standard deviation is about them.\n"
       "Example: poselift plot walk.bvh smooth.bvh --angles left_knee.flexion,right_knee.flexion "
       "--out knees.svg");
-  command->add_option("MOTION", options->motions, "Motions to compare: poses.json, .bvh, .amc")
+  command
+      ->add_option("MOTION", options->motions,
+                   "Motions to compare: poses.json or its folder, .bvh, .amc")
       ->required();
   command->add_option("--angles", options->angles, "Joint angles, with commas between")
       ->required()
@@ -152,6 +158,8 @@ CLI::App* AddPlot(CLI::App* app, Run* run) {
           "found {} angles of {} motions, wanted at most {} angles of {} motions, or one angle of "
           "{}",
           options->angles.size(), options->motions.size(), kMostAngles, kMostMotions, kMostAngles));
+    for (std::string& motion : options->motions)
+      if (fs::is_directory(motion)) motion = (fs::path(motion) / "poses.json").string();
     if (!options->title.empty()) return;
     for (const std::string& motion : options->motions)
       options->title += (options->title.empty() ? "" : ", ") + fs::path(motion).filename().string();

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "lift/point_curves.h"
 #include "lift/rotation.h"
 #include "src/forward_kinematics.h"
+#include "src/joint_angles.h"
 #include "src/level_camera.h"
 
 namespace poselift::cli {
@@ -43,15 +45,29 @@ std::vector<Pose3> LiftFrames(const PhotoLifter& lifter, const Sequence& sequenc
 }
 
 // The first pose of each frame of LiftSequence; as above where there is none.
-std::vector<Pose3> LiftTogether(const SequenceLifter& lifter, const Sequence& sequence,
-                                double frame_time_s) {
+SequenceEstimate LiftTogether(const SequenceLifter& lifter, const JointAngleReader& angles,
+                              const Sequence& sequence, double frame_time_s) {
   const LiftedSequence lifted = lifter.LiftSequence(sequence, frame_time_s);
-  std::vector<Pose3> poses;
-  for (const LiftResult& frame : lifted.frames)
-    poses.push_back(frame.IsUsable() ? frame.poses.front().joints_in_cam_m
-                    : poses.empty()  ? Pose3::Zero(3, kNumJoints)
-                                     : poses.back());
-  return poses;
+  SequenceEstimate estimate;
+  auto& joints_in_cam_m = estimate.joints_in_cam_m;
+  estimate.angles_deg =
+      Eigen::MatrixXd::Constant(std::ssize(JointAngles()), std::ssize(lifted.frames), std::nan(""));
+  estimate.angles_sigma_deg = estimate.angles_deg;
+  for (size_t t = 0; t < lifted.frames.size(); ++t) {
+    const LiftResult& frame = lifted.frames[t];
+    if (!frame.IsUsable()) {
+      joints_in_cam_m.push_back(joints_in_cam_m.empty() ? Pose3::Zero(3, kNumJoints)
+                                                        : joints_in_cam_m.back());
+      continue;
+    }
+    const LiftedPose& lifted_pose = frame.poses.front();
+    joints_in_cam_m.push_back(lifted_pose.joints_in_cam_m);
+    if (lifted_pose.angles_sigma_deg.size() == 0) continue;
+    const auto column = static_cast<Eigen::Index>(t);
+    estimate.angles_deg.col(column) = angles.ReadDeg(LevelFromCam(lifted_pose.pose));
+    estimate.angles_sigma_deg.col(column) = lifted_pose.angles_sigma_deg;
+  }
+  return estimate;
 }
 
 // A filter of the joints' curves, each coordinate on its own.
@@ -116,33 +132,38 @@ SequenceFilter Online(const Skeleton& skeleton,
 }  // namespace
 
 std::vector<NamedSequenceMethod> SequenceMethods(const Dictionary& dictionary,
-                                                 const MotionCodebook& codebook) {
+                                                 const MotionCodebook& codebook,
+                                                 const LiftSequenceOptions& options) {
   const auto shared = std::make_shared<const MotionCodebook>(codebook);
   const auto lifter = std::make_shared<PhotoLifter>(dictionary);
-  const auto together = std::make_shared<SequenceLifter>(*lifter, codebook);
-  LiftSequenceOptions standard;
+  const auto together = std::make_shared<SequenceLifter>(*lifter, codebook, options);
+  LiftSequenceOptions standard = options;
   standard.find_proportions = false;
   const auto on_standard = std::make_shared<SequenceLifter>(*lifter, codebook, standard);
+  const JointAngleReader angles(dictionary.skeleton);
   return {{"each frame alone",
-           [lifter](const Sequence& sequence, double) { return LiftFrames(*lifter, sequence); },
+           [lifter](const Sequence& sequence, double) {
+             return SequenceEstimate{LiftFrames(*lifter, sequence)};
+           },
            {Butterworth("Butterworth 1.5 Hz", 1.5), Butterworth("Butterworth 3 Hz", 3.0),
             Butterworth("Butterworth 6 Hz", 6.0), SavitzkyGolayOf(9), SavitzkyGolayOf(21),
             OneEuro(1.0, 3.0), OneEuro(0.5, 1.0), Online(dictionary.skeleton, shared, 0.0),
             Online(dictionary.skeleton, shared, 0.1)}},
           {"labels at 4 Hz",
            [lifter](const Sequence& sequence, double frame_time_s) {
-             return LiftFrames(*lifter,
-                               SmoothPoints(sequence, frame_time_s, 4.0, /*max_gap_frames=*/1000));
+             return SequenceEstimate{LiftFrames(
+                 *lifter, SmoothPoints(sequence, frame_time_s, 4.0, /*max_gap_frames=*/1000))};
            },
            {Butterworth("labels at 4 Hz, poses at 3 Hz", 3.0)}},
           {"poselift, standard bones",
-           [lifter, on_standard](const Sequence& sequence, double frame_time_s) {
-             return LiftTogether(*on_standard, sequence, frame_time_s);
+           [lifter, on_standard, angles](const Sequence& sequence, double frame_time_s) {
+             return LiftTogether(*on_standard, angles, sequence, frame_time_s);
            },
            {}},
           {"poselift",
-           [lifter, together](const Sequence& sequence, double frame_time_s) {
-             return LiftTogether(*together, sequence, frame_time_s);
+           [lifter, together, angles = JointAngleReader(dictionary.skeleton)](
+               const Sequence& sequence, double frame_time_s) {
+             return LiftTogether(*together, angles, sequence, frame_time_s);
            },
            {}}};
 }

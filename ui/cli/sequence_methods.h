@@ -6,6 +6,7 @@
 
 #include "lift/dictionary.h"
 #include "lift/eval/evaluate_sequence.h"
+#include "lift/lift_sequence.h"
 #include "lift/temporal/motion_codebook.h"
 
 namespace poselift::cli {
@@ -14,6 +15,7 @@ namespace poselift::cli {
 // frame lifted alone, then filters of its joints, or of the labels before it, then
 // LiftSequence. Dictionary and codebook must outlive them.
 std::vector<NamedSequenceMethod> SequenceMethods(const Dictionary& dictionary,
-                                                 const MotionCodebook& codebook);
+                                                 const MotionCodebook& codebook,
+                                                 const LiftSequenceOptions& options);
 
 }  // namespace poselift::cli

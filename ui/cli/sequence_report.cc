@@ -98,6 +98,20 @@ void SequenceReport::Print() const {
       }
       fmt::print(" {:>9.1f}\n", cell.mean[measure::kMsPerFrame]);
     }
+  PrintCalibration("pelvis, spine, head", measure::kTrunkSigmas);
+  PrintCalibration("arms and legs", measure::kLimbSigmas);
+}
+
+void SequenceReport::PrintCalibration(const char* angles, int first_measure) const {
+  for (const double noise_px : noises_px_)
+    for (const std::string& method : methods_) {
+      const Eigen::Array3d share = MeanOf(method, noise_px).mean.segment<3>(first_measure);
+      if (std::isnan(share[0])) continue;
+      fmt::print(
+          "{:>8g} {}, angles of {}: the true ones are within one standard deviation {:.1f} %, "
+          "within two {:.1f} %; two thirds within {:.2f}\n",
+          noise_px, method, angles, 100.0 * share[0], 100.0 * share[1], share[2]);
+    }
 }
 
 std::string SequenceReport::Chart(const std::vector<std::string>& methods, double noise_px) const {

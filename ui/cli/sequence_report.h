@@ -44,6 +44,9 @@ class SequenceReport {
                    const SequenceTrial& trial, const std::string& angle) const;
 
  private:
+  // Of the methods that say how sure they are.
+  void PrintCalibration(const char* angles, int first_measure) const;
+
   std::vector<SequenceEvaluation> rows_;
   std::vector<std::string> methods_, trials_;  // in their first rows' order
   std::vector<double> noises_px_;

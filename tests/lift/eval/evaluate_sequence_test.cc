@@ -15,6 +15,8 @@
 #include <stdexcept>
 
 #include "src/forward_kinematics.h"
+#include "src/joint_angles.h"
+#include "src/level_camera.h"
 #include "tests/support/planted_walk.h"
 #include "tests/support/support.h"
 
@@ -65,7 +67,7 @@ NamedSequenceMethod LateTruth(int lag) {
         std::vector<Pose3> poses;
         for (int t = 0; t < count; ++t)
           poses.emplace_back(cam_from_world * Centred(motion, std::clamp(t - lag, 0, count - 1)));
-        return poses;
+        return SequenceEstimate{poses};
       }};
 }
 
@@ -111,9 +113,9 @@ TEST(EvaluateSequences, ALateTruthIsLate) {
 TEST(EvaluateSequences, SizeCountsInTheRootErrorAlone) {
   NamedSequenceMethod twice = LateTruth(0);
   twice.lift = [truth = twice.lift](const Sequence& sequence, double frame_time_s) {
-    auto poses = truth(sequence, frame_time_s);
-    for (Pose3& pose : poses) pose *= 2.0;
-    return poses;
+    SequenceEstimate estimate = truth(sequence, frame_time_s);
+    for (Pose3& pose : estimate.joints_in_cam_m) pose *= 2.0;
+    return estimate;
   };
   const SequenceErrors errors = ErrorsOf(twice);
   EXPECT_NEAR(errors[measure::kCam_mm], 0.0, 1e-6);
@@ -143,14 +145,44 @@ TEST(EvaluateSequences, AMethodLiftsOnceForAllItsFilters) {
   EXPECT_GT(rows[3].errors[measure::kRoot_mm], 10.0);
 }
 
+// The truth's angles off by one degree, two, three and four in turn, said to be off by
+// two and a half: half of them are less, and all are less than twice that.
+TEST(EvaluateSequences, CountsTheAnglesThatAreAsNearAsIsSaid) {
+  NamedSequenceMethod sure = LateTruth(0);
+  sure.lift = [truth = sure.lift](const Sequence& sequence, double frame_time_s) {
+    SequenceEstimate estimate = truth(sequence, frame_time_s);
+    const Motion motion = Walk("walk", static_cast<int>(sequence.size())).own;
+    const Eigen::Quaterniond cam_from_world(FindCamera(sequence, motion));
+    const JointAngleReader reader(motion.skeleton);
+    estimate.angles_deg.resize(std::ssize(JointAngles()), std::ssize(sequence));
+    for (Eigen::Index t = 0; t < estimate.angles_deg.cols(); ++t) {
+      SkeletonPose pose = motion.frames[static_cast<size_t>(t)];
+      pose.world_from_root = kLevelFromCam * (cam_from_world * pose.world_from_root);
+      estimate.angles_deg.col(t) = reader.ReadDeg(pose);
+      for (Eigen::Index a = 0; a < estimate.angles_deg.rows(); ++a)
+        estimate.angles_deg(a, t) += 360.0 + 1.0 + static_cast<double>((a + t) % 4);
+    }
+    estimate.angles_sigma_deg =
+        Eigen::MatrixXd::Constant(estimate.angles_deg.rows(), estimate.angles_deg.cols(), 2.5);
+    return estimate;
+  };
+  const SequenceErrors errors = ErrorsOf(sure);
+  for (const int first : {measure::kTrunkSigmas, measure::kLimbSigmas}) {
+    EXPECT_NEAR(errors[first], 0.5, 0.02);
+    EXPECT_NEAR(errors[first + 1], 1.0, 1e-9);
+    EXPECT_NEAR(errors[first + 2], 3.0 / 2.5, 1e-3);
+  }
+  EXPECT_TRUE(std::isnan(ErrorsOf(LateTruth(0))[measure::kLimbSigmas]));
+}
+
 // The labels a trial gets, by way of a method that looks at them.
 std::vector<Sequence> Labels(const std::vector<SequenceTrial>& trials, std::uint64_t seed) {
   auto seen = std::make_shared<std::vector<Sequence>>(trials.size());
-  const NamedSequenceMethod look = {"look", [=](const Sequence& sequence, double) {
-                                      (*seen)[sequence.size() == 60 ? 0 : 1] = sequence;
-                                      return std::vector<Pose3>(sequence.size(),
-                                                                Pose3::Random(3, kNumJoints));
-                                    }};
+  const NamedSequenceMethod look = {
+      "look", [=](const Sequence& sequence, double) {
+        (*seen)[sequence.size() == 60 ? 0 : 1] = sequence;
+        return SequenceEstimate{std::vector<Pose3>(sequence.size(), Pose3::Random(3, kNumJoints))};
+      }};
   EvaluateSequenceOptions options;
   options.noises_px = {5.0};
   options.seed = seed;
@@ -181,7 +213,7 @@ TEST(EvaluateSequences, RefusesWhatDoesNotFit) {
     EvaluateSequences({method}, {trial}, options, {});
   };
   const NamedSequenceMethod short_one = {
-      "short", [](const Sequence&, double) { return std::vector<Pose3>(3); }};
+      "short", [](const Sequence&, double) { return SequenceEstimate{std::vector<Pose3>(3)}; }};
   EXPECT_THROW(run(short_one, Walk()), std::invalid_argument);
   EXPECT_THROW(run(LateTruth(0), Walk("walk", 11)), std::invalid_argument);
   EXPECT_THROW(run(LateTruth(0), Walk(), "none"), std::invalid_argument);

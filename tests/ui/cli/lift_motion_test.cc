@@ -12,6 +12,7 @@
 
 #include "src/io/labels.h"
 #include "src/io/motion_file.h"
+#include "tests/support/mutation.h"
 #include "tests/support/run_program.h"
 #include "tests/support/support.h"
 
@@ -121,6 +122,34 @@ TEST(LiftMotion, WritesTheBodyItFinds) {
   ASSERT_EQ(RunProgram("lift --labels walk.labels.json --standard-bones --out standard").code, 0);
   EXPECT_FALSE(ReadJson("standard/poses.json").contains("bodies"));
   EXPECT_GT((BvhLengths("standard/poses.bvh") - BvhLengths("own/poses.bvh")).norm(), 1e-3);
+}
+
+TEST(LiftMotion, SaysHowSureItIsAndPlotDrawsIt) {
+  Labels labels = PartOfWalk(16);
+  for (const size_t t : {6, 7, 8}) labels.frames[t].people.clear();
+  WriteLabels(labels, ScratchDir() / "gap.labels.json");
+  ASSERT_EQ(RunProgram("lift --labels gap.labels.json --out out").code, 0);
+  const Json poses = ReadJson("out/poses.json");
+  for (const Json& frame : poses["frames"]) {
+    const Json& person = frame["people"][0];
+    ASSERT_EQ(person["angles_sigma_deg"].size(), person["angles_deg"].size());
+    for (const Json& sigma_deg : person["angles_sigma_deg"]) {
+      EXPECT_GT(sigma_deg, 0.1);
+      EXPECT_LT(sigma_deg, 90.0);
+    }
+  }
+  const std::string angles = testing::FileText(ScratchDir() / "out/angles.csv");
+  const std::string sigmas = testing::FileText(ScratchDir() / "out/angles_sigma.csv");
+  EXPECT_EQ(angles.substr(0, angles.find('\n')), sigmas.substr(0, sigmas.find('\n')));
+  EXPECT_EQ(std::count(sigmas.begin(), sigmas.end(), '\n'), 17);
+
+  const std::string knee = " --angles left_knee.flexion --out knee.svg";
+  ASSERT_EQ(RunProgram("plot out" + knee).code, 0);
+  EXPECT_NE(testing::FileText(ScratchDir() / "knee.svg").find("standard deviation"),
+            std::string::npos);
+  ASSERT_EQ(RunProgram("plot out/poses.bvh" + knee).code, 0);
+  EXPECT_EQ(testing::FileText(ScratchDir() / "knee.svg").find("standard deviation"),
+            std::string::npos);
 }
 
 TEST(LiftMotion, FramesAloneAreNotFilled) {
