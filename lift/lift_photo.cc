@@ -75,9 +75,10 @@ std::string LiftPhotoOptions::Validate() const {
 
 std::string LiftResult::BriefReport() const {
   if (!IsUsable()) return message;
-  return fmt::format("reprojection {:.1f} px RMS, {} atoms, {} alternatives",
+  const size_t num_alternatives = poses.size() - 1;
+  return fmt::format("reprojection {:.1f} px RMS, {} atoms, {} alternative{}",
                      poses.front().reprojection_rms_px, poses.front().code.atoms.size(),
-                     poses.size() - 1);
+                     num_alternatives, num_alternatives == 1 ? "" : "s");
 }
 
 PhotoLifter::PhotoLifter(const Dictionary& dictionary, const LiftPhotoOptions& options)

@@ -90,9 +90,15 @@ class PlantedTruth : public ::testing::TestWithParam<Seen> {
   }
 };
 
+std::string NameOf(const ::testing::TestParamInfo<Seen>& seen) {
+  constexpr const char* kNames[] = {"Picture", "MaskedPicture", "MaskedSpace", "Mixture"};
+  return kNames[static_cast<int>(seen.param)];
+}
+
 INSTANTIATE_TEST_SUITE_P(Lifter, PlantedTruth,
                          ::testing::Values(Seen::kPicture, Seen::kMaskedPicture, Seen::kMaskedSpace,
-                                           Seen::kMixture));
+                                           Seen::kMixture),
+                         NameOf);
 
 TEST_P(PlantedTruth, IsRecoveredFromAStartNearby) {
   std::mt19937_64 rng = TestRng();
