@@ -11,6 +11,7 @@
 #include "lift/dictionary_file.h"
 #include "lift/lift_sequence.h"
 #include "lift/model_smoother.h"
+#include "lift/online_smoothing.h"
 #include "lift/temporal/motion_codebook_file.h"
 #include "lift/temporal/path_reconstruction.h"
 #include "src/forward_kinematics.h"
@@ -142,26 +143,41 @@ void FindViews(benchmark::State& state) {
 }
 BENCHMARK(FindViews)->Name("segment_views")->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
-void SmoothByModel(benchmark::State& state) {
-  const Models models;
-  Motion walk = WalkInCam(models, 150);
+Motion NoisyWalk(const Models& models, int num_frames) {
+  Motion walk = WalkInCam(models, num_frames);
   std::mt19937_64 rng(1);
   std::normal_distribution<double> noise_rad(0.0, 0.03);
   for (SkeletonPose& pose : walk.frames) {
     pose = LevelFromCam(pose);
     for (double& dof : pose.dofs) dof += noise_rad(rng);
   }
-  const MotionSmoother smoother = SmootherByModel(models.codebook);
+  return walk;
+}
+
+void Smooth(benchmark::State& state, const Motion& motion, const MotionSmoother& smoother) {
   for (auto _ : state) {
-    Motion smooth = smoother(walk, 0);
+    Motion smooth = smoother(motion, 0);
     benchmark::DoNotOptimize(smooth.frames.data());
   }
-  state.SetItemsProcessed(state.iterations() * std::ssize(walk.frames));
+  state.SetItemsProcessed(state.iterations() * std::ssize(motion.frames));
+}
+
+Motion AsItIs(const Motion& motion, int /*max_gap_frames*/) { return motion; }
+
+void SmoothByModel(benchmark::State& state) {
+  const Models models;
+  Smooth(state, NoisyWalk(models, 150), SmootherByModel(models.codebook, AsItIs));
 }
 BENCHMARK(SmoothByModel)
     ->Name("smooth_motion/model")
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime();
+
+void SmoothAsAStream(benchmark::State& state) {
+  const Models models;
+  Smooth(state, NoisyWalk(models, 150), SmootherOnline(models.codebook, AsItIs));
+}
+BENCHMARK(SmoothAsAStream)->Name("smooth_motion/online")->Unit(benchmark::kMillisecond);
 
 // A step with both hands and both ankles seen, over eight walks of five seconds; m
 // poses are given.

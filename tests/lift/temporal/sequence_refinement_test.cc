@@ -21,16 +21,16 @@
 namespace poselift {
 namespace {
 
-constexpr size_t kFrames = 20;
+constexpr size_t kTagFrames = 20;
 
 class TagsOverTime : public ::testing::Test {
  protected:
-  TagsOverTime() : walk_(testing::MadeUpGaits().Gait(kFrames, 0.4)) {}
+  TagsOverTime() : walk_(testing::MadeUpGaits().Gait(kTagFrames, 0.4)) {}
 
   // From rest, with the tags of these bones in every frame.
   std::vector<RefinedFrame> Refine(const std::vector<std::string>& bones) const {
-    std::vector<FrameEvidence> evidence(kFrames);
-    for (size_t t = 0; t < kFrames; ++t) {
+    std::vector<FrameEvidence> evidence(kTagFrames);
+    for (size_t t = 0; t < kTagFrames; ++t) {
       evidence[t].start = SkeletonPose::Rest(walk_.skeleton);
       evidence[t].camera.scale_px_per_m = 0.0;
       for (const std::string& bone : bones)
@@ -53,7 +53,7 @@ TEST_F(TagsOverTime, TheSequenceFollowsThem) {
   const std::vector<RefinedFrame> refined = Refine(bones);
   const int elbow = walk_.skeleton.DofStarts()[*walk_.skeleton.FindBone("lradius")];
   BoneFrames truth, found;
-  for (size_t t = 0; t < kFrames; ++t) {
+  for (size_t t = 0; t < kTagFrames; ++t) {
     ForwardKinematics(walk_.skeleton, walk_.frames[t], &truth);
     ForwardKinematics(walk_.skeleton, refined[t].pose, &found);
     EXPECT_NEAR(refined[t].pose.dofs[elbow], walk_.frames[t].dofs[elbow], 2e-3);
