@@ -8,9 +8,7 @@
 #include "src/body_transfer.h"
 
 namespace poselift {
-namespace {
 
-// Bones may have other lengths.
 bool IsSameBody(const Skeleton& a, const Skeleton& b) {
   return std::equal(
       a.bones.begin(), a.bones.end(), b.bones.begin(), b.bones.end(),
@@ -20,8 +18,6 @@ bool IsSameBody(const Skeleton& a, const Skeleton& b) {
                           [](const Dof& d, const Dof& e) { return d.kind == e.kind; });
       });
 }
-
-}  // namespace
 
 MotionSmoother SmootherOfBody(Skeleton body, MotionSmoother of_body, MotionSmoother rest) {
   return [body = std::move(body), of_body = std::move(of_body), rest = std::move(rest)](

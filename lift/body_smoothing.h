@@ -7,6 +7,9 @@
 
 namespace poselift {
 
+// Whether the bones and their dofs are the same; lengths may differ.
+bool IsSameBody(const Skeleton& a, const Skeleton& b);
+
 // A smoother of motions on one skeleton of 23 joints, `body`, as one of motions on
 // any skeleton that is a body: there and back by BodyTransfer. What the body knows
 // nothing of (fingers, dofs that it lacks) is as `rest` smooths it. Calling it

@@ -18,4 +18,7 @@ struct CameraTrack {
   std::vector<double> scale_px_per_m;  // without: of each frame, straight lines over gaps
 };
 
+// From the poses of a person, null where there is none; without the scales.
+CameraTrack FindCamera(const std::vector<const PersonPose*>& people);
+
 }  // namespace poselift

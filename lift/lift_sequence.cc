@@ -86,7 +86,7 @@ Eigen::Matrix3Xd PlacedPoints_m(const std::vector<ObservedPoint>& points, const 
 
 bool AllPointsAre2D(const std::vector<Observation>& frames) {
   return std::all_of(frames.begin(), frames.end(), [](const Observation& frame) {
-    return frame.Count(ObservedPoint::Kind::k3D) == 0;
+    return frame.Count(ObservedPoint::Kind::k3D) == 0 && frame.bone_poses.empty();
   });
 }
 
@@ -188,7 +188,8 @@ LiftedSequence SequenceLifter::LiftSequence(const std::vector<Observation>& fram
     GatherEvidence(&run);
     runs.push_back(std::move(run));
   }
-  if (options_.find_proportions && AllPointsAre2D(frames)) lifted.body = FindProportions(&runs);
+  if (!runs.empty() && options_.find_proportions && AllPointsAre2D(frames))
+    lifted.body = FindProportions(&runs);
   lifted.skeleton = WithProportions(standard, lifted.body.log_ratios);
   for (Run& run : runs) {
     std::vector<LiftedPose> together = Refine(run, lifted.skeleton, lifted.body.log_ratios);

@@ -2,12 +2,15 @@
 // Copyright (c) 2026 the poselift authors
 #include "lift/online_smoothing.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "lift/body_smoothing.h"
 
 namespace poselift {
 namespace {
+
+constexpr double kLongestGap_s = 10.0;  // nothing is foretold for so long
 
 Motion SmoothStream(const Motion& motion, OnlineSmoother* smoother) {
   Motion smooth{motion.skeleton, motion.frame_time_s, {}};
@@ -31,7 +34,7 @@ MotionSmoother SmootherOnline(std::shared_ptr<const MotionCodebook> codebook, Mo
   const auto of_body = [codebook = std::move(codebook), options](const Motion& motion,
                                                                  int max_gap_frames) {
     OnlineSmootherOptions of_motion = options;
-    of_motion.max_gap_s = max_gap_frames * motion.frame_time_s;
+    of_motion.max_gap_s = std::min(kLongestGap_s, max_gap_frames * motion.frame_time_s);
     OnlineSmoother smoother(codebook, of_motion);
     return SmoothStream(motion, &smoother);
   };

@@ -10,9 +10,10 @@
 namespace poselift {
 
 // A whole motion as a stream: its frames as they come out of an OnlineSmoother.
-// max_gap_frames goes before options.max_gap_s; of a longer gap the first frames
+// max_gap_frames, up to 10 s, goes before options.max_gap_s; of a longer gap the first frames
 // are filled, for nobody knew how long it would be. The codebook stays with the
-// smoother; rest and errors as with SmootherOfBody.
+// smoother; rest and errors as with SmootherOfBody, and
+// InputError for wrong options when it is called.
 MotionSmoother SmootherOnline(std::shared_ptr<const MotionCodebook> codebook, MotionSmoother rest,
                               const OnlineSmootherOptions& options = {});
 

@@ -21,13 +21,6 @@ namespace {
 
 constexpr double kFloorQuantile = 0.05;
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return kUnknown;
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 int FindPerson(const Poses& poses, const std::optional<int>& wanted) {
   std::vector<int> ids;
   for (const FramePoses& frame : poses.frames)
@@ -72,28 +65,6 @@ std::vector<double> TimesOf(const Poses& poses, const std::optional<double>& fra
                                    : *poses.frames[f].time_s);
   }
   return times_s;
-}
-
-CameraTrack FindCamera(const std::vector<const PersonPose*>& people) {
-  CameraTrack camera;
-  camera.has_depth = std::all_of(people.begin(), people.end(), [](const PersonPose* person) {
-    return !person || person->pelvis_in_cam_m.allFinite();
-  });
-  std::vector<double> focals_px, x_px, y_px;
-  for (const PersonPose* person : people) {
-    if (!person || !std::isfinite(person->scale_px_per_m) || !person->translation_px.allFinite())
-      continue;
-    Eigen::Vector2d centre_px = person->translation_px;
-    if (camera.has_depth) {
-      centre_px -= person->scale_px_per_m * person->pelvis_in_cam_m.head<2>();
-      focals_px.push_back(person->scale_px_per_m * person->pelvis_in_cam_m.z());
-    }
-    x_px.push_back(centre_px.x());
-    y_px.push_back(centre_px.y());
-  }
-  camera.centre_px = {Median(std::move(x_px)), Median(std::move(y_px))};
-  camera.focal_px = Median(std::move(focals_px));
-  return camera;
 }
 
 // On level axes, the camera at the origin; unknown where there is no pose.

@@ -93,6 +93,15 @@ Eigen::Vector3d NearestAxis(const Eigen::Vector3d& direction) {
   return std::copysign(1.0, direction[axis]) * Eigen::Vector3d::Unit(axis);
 }
 
+// A bone with two rotations about one axis, which no orientation tells apart.
+const Bone* FindDoubleAxis(const Skeleton& source) {
+  for (const Bone& bone : source.bones)
+    for (size_t i = 0; i < bone.dofs.size(); ++i)
+      for (size_t j = 0; j < i; ++j)
+        if (bone.dofs[i].IsRotation() && bone.dofs[j].kind == bone.dofs[i].kind) return &bone;
+  return nullptr;
+}
+
 // Whether the source stands at rest; then its axes are the map's.
 bool FindAxes(const Skeleton& source, BodyMap* map) {
   BoneFrames rest;
@@ -108,6 +117,7 @@ bool FindAxes(const Skeleton& source, BodyMap* map) {
       NearestAxis(left_shoulder_m + right_shoulder_m - left_hip_m - right_hip_m);
   const Eigen::Vector3d to_left = left_shoulder_m - right_shoulder_m + left_hip_m - right_hip_m;
   const Eigen::Vector3d left = NearestAxis(to_left - up.dot(to_left) * up);
+  if (left.cross(up).isZero()) return false;
   map->body_from_source << left.transpose(), up.transpose(), left.cross(up).transpose();
   for (const int joint : {joint::kLeftKnee, joint::kRightKnee}) {
     const Eigen::Vector3d thigh_m = start_m(joint + 1) - start_m(joint);
@@ -141,6 +151,10 @@ BodyMap FindBody(const Skeleton& source) {
   if (const std::vector<int> neck = ChainTo(source, chest, head); neck.size() > 1)
     MapChain(kNeck, neck, &map);
   MapBone(joint::kPelvis, map.pelvis, &map);
+  if (const Bone* bone = FindDoubleAxis(source)) {
+    map.flaw = "found that the bone " + bone->name + " turns twice about the same axis";
+    return map;
+  }
   if (!FindAxes(source, &map)) map.flaw = "found a rest pose that does not stand on its legs";
   return map;
 }

@@ -57,15 +57,15 @@ const AccelerationModel::Prediction& AccelerationModel::At(const FeatureVector& 
     const double weight =
         std::exp(-(scores_[c] - least) / (2.0 * kBandwidth * kBandwidth * farthest));
     const AccelerationModels& models = codebook_.accelerations;
-    x << pose.head<kPoseRows>().cast<float>(), rates.cast<float>();
-    x.head<kPoseRows>() -=
+    Eigen::Matrix<float, kAccelerationInputs, 1> off = x;
+    off.head<kPoseRows>() -=
         codebook_.segments.col(c).segment<kPoseRows>(kMiddleSample * kNumFeatures);
-    x.tail<kNumFeatures>() -= codebook_.rates.col(c);
+    off.tail<kNumFeatures>() -= codebook_.rates.col(c);
     FeatureVector mean = models.means.col(c).cast<double>();
     for (int r = 0; r < kAccelerationRank; ++r)
       mean += static_cast<double>(models.directions.col(c)
                                       .segment<kAccelerationInputs>(r * kAccelerationInputs)
-                                      .dot(x)) *
+                                      .dot(off)) *
               models.responses.col(c).segment<kNumFeatures>(r * kNumFeatures).cast<double>();
     prediction_.mean += weight * mean;
     prediction_.variance +=

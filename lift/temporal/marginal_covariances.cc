@@ -12,8 +12,6 @@
 namespace poselift {
 namespace {
 
-constexpr double kLeastInformation = 1e-9;
-
 // A symmetric matrix whose blocks couple with the next alone.
 struct BlockTridiagonal {
   std::vector<Eigen::MatrixXd> diagonal;

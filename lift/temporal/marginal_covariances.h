@@ -11,6 +11,10 @@ struct CRSMatrix;
 
 namespace poselift {
 
+// What is added to the diagonal of J^T J: unknowns that nothing is said of have a
+// covariance too, a large one.
+inline constexpr double kLeastInformation = 1e-9;
+
 // How sure the unknowns of each frame are in a least squares problem over time: the
 // diagonal blocks of (J^T J + 1e-9 I)^-1, J the Jacobian of the residuals over their
 // standard deviations. A block a frame, frame_sizes[t]^2; J's columns are the frames'

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "lift/temporal/pose_difference.h"
 #include "src/input_error.h"
@@ -18,9 +19,9 @@ using Kind = SmoothedFrame::Kind;
 using Array = Eigen::Array<double, kNumFeatures, 1>;
 
 constexpr double kFirstNoise = 0.05, kFirstRate = 2.0;  // radians, metres, per second
-constexpr double kNoiseMemory_s = 2.0, kFloorMemory_s = 10.0;
+constexpr double kNoiseMemory_s = 2.0, kFallMemory_s = 0.2, kRiseMemory_s = 10.0;
 constexpr double kLeastDensity = 0.02;  // of accelerations, per second cubed
-constexpr double kTimeTolerance_s = 1e-6;
+constexpr double kTimeTolerance_s = 1e-6, kLongestStep_s = 0.5;
 // A third difference of so many standard deviations is no noise but a leap.
 constexpr double kLeap = 4.0;
 constexpr double kFramesBeforeLeaps = 15.0;
@@ -38,8 +39,8 @@ void Unwrap(const SkeletonPose& before, SkeletonPose* pose) {
 std::string OnlineSmootherOptions::Validate() const {
   if (!(latency_s >= 0.0 && latency_s <= 10.0))
     return fmt::format("OnlineSmootherOptions::latency_s = {}, wanted 0 to 10", latency_s);
-  if (!(max_gap_s >= 0.0))
-    return fmt::format("OnlineSmootherOptions::max_gap_s = {}, wanted >= 0", max_gap_s);
+  if (!(max_gap_s >= 0.0 && max_gap_s <= 10.0))
+    return fmt::format("OnlineSmootherOptions::max_gap_s = {}, wanted 0 to 10", max_gap_s);
   if (!(variance_scale > 0.0))
     return fmt::format("OnlineSmootherOptions::variance_scale = {}, wanted > 0", variance_scale);
   if (!(least_noise > 0.0))
@@ -68,8 +69,8 @@ void OnlineSmoother::Add(double time_s, const SkeletonPose& pose) {
   frame.time_s = time_s;
   const bool is_measured = IsKnown(pose);
   SkeletonPose measured = pose;
-  if (!before || before->kind == Kind::kNotKnown ||
-      time_s - measured_s_ > options_.max_gap_s + kTimeTolerance_s) {
+  if (!before || !GoesOn(*before, time_s, is_measured)) {
+    last_measured_.clear();
     if (is_measured) Start(measured, &frame);
   } else {
     frame.dt_s = time_s - before->time_s;
@@ -77,19 +78,26 @@ void OnlineSmoother::Add(double time_s, const SkeletonPose& pose) {
     frame.kind = is_measured ? Kind::kMeasured : Kind::kFilled;
     if (is_measured) {
       Unwrap(frame.predicted, &measured);
-      LearnNoise(measured, frame.dt_s);
+      LearnNoise({time_s, measured});
       Update(measured, &frame);
     }
   }
   if (is_measured) {
     LearnFloor(frame.filtered, frame.dt_s);
     measured_s_ = time_s;
-    last_measured_.push_front(measured);
+    last_measured_.push_front({time_s, measured});
     if (last_measured_.size() > 3) last_measured_.pop_back();
   } else {
     last_measured_.clear();
   }
   frames_.push_back(std::move(frame));
+}
+
+// A frame that is measured may follow any that is known, if its step is one.
+bool OnlineSmoother::GoesOn(const Frame& before, double time_s, bool is_measured) const {
+  if (before.kind == Kind::kNotKnown || !IsKnown(before.filtered)) return false;
+  return is_measured ? time_s - before.time_s < std::max(options_.max_gap_s, kLongestStep_s)
+                     : time_s - measured_s_ <= options_.max_gap_s + kTimeTolerance_s;
 }
 
 std::optional<SmoothedFrame> OnlineSmoother::Take() {
@@ -147,26 +155,35 @@ void OnlineSmoother::Update(const SkeletonPose& measured, Frame* frame) const {
   frame->covariance.vv = p.vv.array() - gain_v * p.xv.array();
 }
 
-// Of four poses in a row: noise makes third differences of sqrt(20) times its size.
-void OnlineSmoother::LearnNoise(const SkeletonPose& measured, double dt_s) {
+// Of four poses in a row: third (divided) differences, which hardly know motion.
+// At even steps they have sqrt(20) times the size of the noise.
+void OnlineSmoother::LearnNoise(const Measured& measured) {
   if (last_measured_.size() < 3) return;
-  const Array third = -3.0 * PoseDifference(last_measured_[0], measured) +
-                      3.0 * PoseDifference(last_measured_[1], measured) -
-                      PoseDifference(last_measured_[2], measured);
-  Array now = third.square() / 20.0;
+  const double times_s[] = {measured.time_s, last_measured_[0].time_s, last_measured_[1].time_s,
+                            last_measured_[2].time_s};
+  Array third = Array::Zero();  // of differences to the newest: its own is nought
+  double squares = 0.0;
+  for (size_t i = 0; i < 4; ++i) {
+    double weight = 1.0;
+    for (size_t j = 0; j < 4; ++j)
+      if (j != i) weight *= (times_s[0] - times_s[1]) / (times_s[i] - times_s[j]);
+    squares += weight * weight;
+    if (i > 0) third += weight * PoseDifference(last_measured_[i - 1].pose, measured.pose).array();
+  }
+  Array now = third.square() / squares;
   if (num_learned_ > kFramesBeforeLeaps) now = now.min(kLeap * kLeap * noise_variance_.array());
+  const double dt_s = times_s[0] - times_s[1];
   const double share = std::max(1.0 / ++num_learned_, dt_s / kNoiseMemory_s);
   noise_variance_ += std::min(1.0, share) * (now.matrix() - noise_variance_);
   noise_variance_ = noise_variance_.cwiseMax(options_.least_noise * options_.least_noise);
 }
 
-// Down at once, up slowly: a jump is no new floor, a camera that is carried may be.
+// Soon down, slowly up: a jump is no new floor, nor is one wrong frame.
 void OnlineSmoother::LearnFloor(const SkeletonPose& pose, double dt_s) {
   const double lowest_m = JointPositions(body_, pose).row(1).minCoeff();
-  if (!(lowest_m > floor_m_))
-    floor_m_ = lowest_m;
-  else
-    floor_m_ += std::min(1.0, dt_s / kFloorMemory_s) * (lowest_m - floor_m_);
+  const double memory_s = lowest_m < floor_m_ ? kFallMemory_s : kRiseMemory_s;
+  if (std::isinf(floor_m_)) floor_m_ = lowest_m;
+  floor_m_ += std::min(1.0, dt_s / memory_s) * (lowest_m - floor_m_);
 }
 
 SmoothedFrame OnlineSmoother::SmoothOldest() const {

@@ -14,19 +14,21 @@
 
 namespace poselift {
 
-// Eq. (2) of the motion paper as poses arrive: its Markov chain of order two with
+// Eq. (1) of the motion paper as poses arrive: its Markov chain of order two with
 // the local regressions of a codebook, which are linear and Gaussian, is a Kalman
 // filter. The state of each feature is its value and its rate,
 //
 //   x_t = x_t-1 + dt v + dt^2/2 a,   v_t = v_t-1 + dt a,   a ~ N(a(x, v), variance),
 //
-// with a and its variance by AccelerationModel, measured by the pose with a noise
+// with a and its variance by AccelerationModel (its slope in x is not in the
+// covariance), measured by the pose with a noise
 // that is estimated as it goes. Features are filtered side by side: what they do
 // together is in a(x, v). Frames come out `latency_s` late, set right by those that
 // came since (Rauch, Tung, Striebel). Memory and time a frame do not grow.
 struct OnlineSmootherOptions {
   double latency_s = 0.1;
-  double max_gap_s = 0.5;  // so long are poses foretold that are not measured
+  // So long are poses foretold that are not measured; at most 10 s.
+  double max_gap_s = 0.5;
   // Of the variance of accelerations: bodies that were not captured differ, and
   // what is measured errs for more than one frame.
   double variance_scale = 6.0;
@@ -63,6 +65,10 @@ class OnlineSmoother {
   struct Covariance {
     FeatureVector xx, xv, vv;
   };
+  struct Measured {
+    double time_s;
+    SkeletonPose pose;
+  };
   struct Frame {
     double time_s = 0.0;
     SmoothedFrame::Kind kind = SmoothedFrame::Kind::kNotKnown;
@@ -72,10 +78,11 @@ class OnlineSmoother {
     double dt_s = 0.0;  // from the frame before, 0 where the filter started anew
   };
 
+  bool GoesOn(const Frame& before, double time_s, bool is_measured) const;
   void Start(const SkeletonPose& measured, Frame* frame) const;
   void Predict(const Frame& before, Frame* frame);
   void Update(const SkeletonPose& measured, Frame* frame) const;
-  void LearnNoise(const SkeletonPose& measured, double dt_s);
+  void LearnNoise(const Measured& measured);
   void LearnFloor(const SkeletonPose& pose, double dt_s);
   // The oldest frame in the light of all.
   SmoothedFrame SmoothOldest() const;
@@ -85,7 +92,7 @@ class OnlineSmoother {
   Articulation body_;
   AccelerationModel model_;
   std::deque<Frame> frames_;
-  std::deque<SkeletonPose> last_measured_;  // newest first, one frame after the other
+  std::deque<Measured> last_measured_;  // newest first, without a gap
   FeatureVector noise_variance_;
   double num_learned_ = 0.0;
   double floor_m_ = std::numeric_limits<double>::infinity();

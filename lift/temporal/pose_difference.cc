@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the poselift authors
 #include "lift/temporal/pose_difference.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace poselift {

@@ -102,7 +102,8 @@ class PieceProblem {
     return summary.IsSolutionUsable();
   }
 
-  BodyProportions Proportions() {
+  // Those given where the normal equations break down.
+  BodyProportions Proportions(const BodyProportions& given) {
     ceres::Problem::EvaluateOptions options;
     problem_.GetParameterBlocks(&options.parameter_blocks);
     std::erase_if(options.parameter_blocks, [&](double* block) {
@@ -110,14 +111,17 @@ class PieceProblem {
     });
     options.parameter_blocks.push_back(log_ratios_->data());
     ceres::CRSMatrix rows;
-    problem_.Evaluate(options, nullptr, nullptr, nullptr, &rows);
+    if (!problem_.Evaluate(options, nullptr, nullptr, nullptr, &rows)) return given;
     using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
     const Eigen::Map<const RowMajor> J(rows.num_rows, rows.num_cols, std::ssize(rows.values),
                                        rows.rows.data(), rows.cols.data(), rows.values.data());
     const Eigen::SparseMatrix<double> H = J.transpose() * J;
     Eigen::MatrixXd units = Eigen::MatrixXd::Zero(H.cols(), kNumBoneGroups);
     units.bottomRows<kNumBoneGroups>().setIdentity();
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(H);
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
+    factors.setShift(kLeastInformation);  // of where the picture is in frames without labels
+    factors.compute(H);
+    if (factors.info() != Eigen::Success) return given;
     return {*log_ratios_, AlikeFrames() * factors.solve(units).bottomRows<kNumBoneGroups>()};
   }
 
@@ -391,7 +395,7 @@ std::vector<RefinedFrame> SequenceRefinement::SolvePieces(const std::vector<Fram
         refined[t] = problem.Result(t - held_from);
         refined[t].covariance = std::move(covariance);
       }
-      if (proportions) *proportions = problem.Proportions();
+      if (proportions) *proportions = problem.Proportions(*proportions);
     }
     if (is_last) break;
   }

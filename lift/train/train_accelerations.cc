@@ -7,8 +7,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <cstdlib>
 
 #include "lift/temporal/acceleration_model.h"
 #include "src/input_error.h"

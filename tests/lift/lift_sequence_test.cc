@@ -210,6 +210,19 @@ TEST_F(LiftSequenceTest, FewFramesStayNearTheStandardBody) {
   EXPECT_LT(of_few.norm(), 0.5 * of_many.norm());
 }
 
+TEST_F(LiftSequenceTest, AFrameWithoutLabelsLeavesTheProportionsSure) {
+  See(30, 1.0, LongLegs());
+  const SequenceLifter lifter(lifter_, codebook_);
+  const BodyProportions whole = lifter.LiftSequence(frames_, kFrameTime_s).body;
+  frames_[14].points.clear();
+  frames_[15].points.clear();
+  const BodyProportions with_gap = lifter.LiftSequence(frames_, kFrameTime_s).body;
+  for (int g = 0; g < kNumBoneGroups; ++g) {
+    EXPECT_NEAR(with_gap.log_ratios[g], whole.log_ratios[g], 0.02) << BoneGroupNames()[g];
+    EXPECT_NEAR(std::sqrt(with_gap.covariance(g, g)), std::sqrt(whole.covariance(g, g)), 0.01);
+  }
+}
+
 TEST_F(LiftSequenceTest, KeepsTheStandardBonesWhenTold) {
   See(8, 1.0, LongLegs());
   LiftSequenceOptions standard;

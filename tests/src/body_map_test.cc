@@ -100,5 +100,13 @@ TEST(FindBody, ARestPoseThatDoesNotStandSaysNothingOfAxes) {
   EXPECT_THAT(FindBody(rig).flaw, HasSubstr("does not stand"));
 }
 
+TEST(FindBody, ABoneThatTurnsTwiceAboutAnAxisIsNone) {
+  Skeleton rig = testing::RigSkeleton();
+  Bone& bone = rig.bones.back();
+  bone.dofs = {{Dof::Kind::kRz}, {Dof::Kind::kRx}, {Dof::Kind::kRz}};
+  EXPECT_EQ(FindBody(rig).flaw,
+            "found that the bone " + bone.name + " turns twice about the same axis");
+}
+
 }  // namespace
 }  // namespace poselift

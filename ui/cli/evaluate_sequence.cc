@@ -38,7 +38,8 @@ namespace {
 
 constexpr double kFrameTime_s = 1.0 / 30.0;
 // What the plots show besides the best filter, where it was run.
-const std::string kFrameAlone = "each frame alone", kPoselift = "poselift";
+const std::string kFrameAlone = "each frame alone", kPoselift = "poselift",
+                  kStandardBones = "poselift, standard bones";
 constexpr const char* kPlottedAngle = "left_knee.flexion";
 
 struct Options {
@@ -173,8 +174,8 @@ void WritePlots(const SequenceReport& report, const std::vector<SequenceTrial>& 
            report.methods().end();
   };
   for (const double noise_px : report.noises_px()) {
-    std::vector<std::string> shown = {kFrameAlone, report.Best(noise_px, {kFrameAlone, kPoselift}),
-                                      kPoselift};
+    std::vector<std::string> shown = {
+        kFrameAlone, report.Best(noise_px, {kFrameAlone, kPoselift, kStandardBones}), kPoselift};
     std::erase_if(shown, [&](const std::string& method) { return !was_run(method); });
     WriteFileAtomically(folder / fmt::format("sequence_{:g}px_mm.svg", noise_px),
                         report.Chart(shown, noise_px));

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "lift/body_smoothing.h"
 #include "lift/default_dictionary.h"
 #include "lift/dictionary_file.h"
 #include "lift/poses_to_motion.h"
@@ -199,9 +200,7 @@ void RequireStreamOptions(const Options& options) {
         options.in, options.out));
   if (options.method != SmoothingMethods().front().name && options.method != kOnlineMethod)
     throw InputError(
-        fmt::format("--method {}: wanted online for JSON lines: the others look at "
-                    "all frames",
-                    options.method));
+        fmt::format("--method {}: wanted online, or auto, for JSON lines", options.method));
   if (options.lock_feet || !options.json.empty())
     throw InputError("--lock-feet and --json want a file that ends: write poses.json instead");
 }
@@ -216,6 +215,10 @@ int SmoothLines(const Options& options) {
                                                : std::filesystem::path(options.input.dictionary))
                                 .skeleton;
   const auto codebook = ReadCodebook(options.smoothing);
+  if (!IsSameBody(skeleton, codebook->skeleton))
+    throw InputError(
+        "found a dictionary and a motion model of different skeletons, wanted one skeleton: learn "
+        "both from the same motions");
   const StreamReport report =
       SmoothStreamFiles(options.in, options.out, skeleton, codebook, stream);
   fmt::print(stderr, "{} frames, {:.3g} s late; {} filled, {} not known\n", report.num_frames,
@@ -248,7 +251,7 @@ void AddMethodOptions(CLI::App* command, SmoothingOptions* options) {
                    "frame rate]")
       ->check(IsNumber(1e-3, kMost));
   command->add_option("--motion-model", options->motion_model,
-                      "Of motion-model: a codebook [the one that ships]");
+                      "Of motion-model, online and auto: a codebook [the one that ships]");
   command
       ->add_option("--latency-s", options->online.latency_s,
                    "Of online: how much later frames come out, the wiser for it")

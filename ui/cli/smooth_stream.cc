@@ -46,7 +46,8 @@ class Stream {
     const PersonPose* person = Find(poses);
     SkeletonPose pose = UnknownPose(skeleton_);
     if (person) {
-      if (!knows_camera_) SeeCamera(*person);
+      // For good: what is measured from must not move.
+      if (!camera_.centre_px.allFinite()) camera_ = FindCamera({person});
       pose = ik_.Solve(*person, camera_);
       if (std::isfinite(person->scale_px_per_m)) scale_px_per_m_ = person->scale_px_per_m;
     }
@@ -80,14 +81,6 @@ class Stream {
       if (person.id == *person_id_) return &person;
     }
     return nullptr;
-  }
-
-  // For good: what is measured from must not move.
-  void SeeCamera(const PersonPose& person) {
-    knows_camera_ = true;
-    camera_.has_depth = person.pelvis_in_cam_m.allFinite();
-    camera_.centre_px = person.translation_px;
-    if (camera_.has_depth) camera_.focal_px = person.scale_px_per_m * person.pelvis_in_cam_m.z();
   }
 
   void WriteReady() {
@@ -125,8 +118,7 @@ class Stream {
   std::optional<int> person_id_;
   std::ostream& out_;
   long num_read_ = 0;
-  bool knows_camera_ = false;
-  CameraTrack camera_;
+  CameraTrack camera_{.centre_px = Eigen::Vector2d::Constant(kUnknown)};
   std::optional<PoseToPerson> to_person_;  // once a frame is there
   double scale_px_per_m_ = kUnknown;
   std::deque<Waiting> waiting_;
@@ -167,10 +159,12 @@ StreamReport SmoothStreamFiles(const std::string& in, const std::string& out,
     const StreamReport report =
         SmoothStream(lines, name, skeleton, std::move(codebook), options, growing);
     growing.close();
+    if (!growing) throw InputError(out, "cannot be written: is the disk full?");
     fs::rename(part, out);
     return report;
   } catch (...) {
-    fs::remove(part);
+    std::error_code ignored;
+    fs::remove(part, ignored);
     throw;
   }
 }

@@ -126,6 +126,27 @@ TEST_F(OnlineSmootherTest, ShortGapsAreFilledAndLongOnesNot) {
   EXPECT_GT(at_once[71].deviations.mean(), 1.5 * at_once[59].deviations.mean());
 }
 
+// Whatever may be filled, what is measured is one motion.
+TEST_F(OnlineSmootherTest, SmoothsWhenNoGapMayBeFilled) {
+  const auto none = Run(noisy_, {.max_gap_s = 0.0}), usual = Run(noisy_, {});
+  for (size_t t = 0; t < none.size(); ++t) EXPECT_EQ(none[t].pose.dofs, usual[t].pose.dofs) << t;
+}
+
+TEST_F(OnlineSmootherTest, UnevenTimesAreNoNoise) {
+  for (double step_s : {1.0, 0.5}) {
+    OnlineSmoother even(codebook_, {.latency_s = 0.0}), uneven(codebook_, {.latency_s = 0.0});
+    double error_even = 0.0, error_uneven = 0.0;
+    for (size_t t = 0; t < walk_.frames.size(); ++t) {
+      even.Add(TimeOf(walk_, t), noisy_.frames[t]);
+      error_even += (even.Take()->pose.dofs - walk_.frames[t].dofs).squaredNorm();
+      if (t % 5 == 2 && step_s < 1.0) continue;  // lost by the camera
+      uneven.Add(TimeOf(walk_, t), noisy_.frames[t]);
+      error_uneven += (uneven.Take()->pose.dofs - walk_.frames[t].dofs).squaredNorm();
+    }
+    EXPECT_LT(error_uneven, 1.2 * error_even);
+  }
+}
+
 TEST_F(OnlineSmootherTest, KnowsHowFarItIsOff) {
   const auto frames = Run(noisy_, {.latency_s = 0.1});
   double squares = 0.0, said = 0.0;
@@ -173,6 +194,7 @@ TEST_F(OnlineSmootherTest, OneWrongFrameDrawsLittle) {
 TEST_F(OnlineSmootherTest, RefusesWhatIsWrong) {
   EXPECT_THROW(OnlineSmoother(codebook_, {.latency_s = -1.0}), InputError);
   EXPECT_THROW(OnlineSmoother(codebook_, {.variance_scale = 0.0}), InputError);
+  EXPECT_THROW(OnlineSmoother(codebook_, {.max_gap_s = 1e6}), InputError);
   OnlineSmoother smoother(codebook_);
   smoother.Add(1.0, noisy_.frames[0]);
   EXPECT_THROW(smoother.Add(1.0, noisy_.frames[1]), InputError);

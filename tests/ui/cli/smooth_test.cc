@@ -264,7 +264,8 @@ TEST(SmoothStream, ALineThatIsWrongIsNamed) {
 
 TEST(SmoothStream, WhatLooksAtAllFramesIsRefused) {
   WriteLines();
-  ExpectRefusal("smooth poses.jsonl --out out.jsonl --method butterworth", "wanted online");
+  ExpectRefusal("smooth poses.jsonl --out out.jsonl --method butterworth",
+                "wanted online, or auto");
   ExpectRefusal("smooth poses.jsonl --out out.bvh", "for both or for neither");
   ExpectRefusal("smooth poses.jsonl --out out.jsonl --lock-feet", "--lock-feet");
 }
