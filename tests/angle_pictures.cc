@@ -29,6 +29,8 @@
 namespace poselift {
 namespace {
 
+constexpr double kWidth_px = 270, kHeight_px = 338, kText_px = 17;  // of a panel, of a line
+
 using Angles = std::map<std::string, double>;  // degrees; those not named are zero
 
 struct View {
@@ -208,8 +210,6 @@ std::vector<Shape> BodyShapes(const Skeleton& skeleton, const BoneFrames& standi
 
 class Artist {
  public:
-  static constexpr double kWidth_px = 270, kHeight_px = 338, kText_px = 17;
-
   explicit Artist(const Skeleton& skeleton)
       : skeleton_(skeleton),
         stander_(skeleton),
@@ -351,10 +351,12 @@ size_t WriteSheet(const Artist& artist, const std::vector<std::string>& joints,
     for (const JointAngle& angle : JointAngles())
       if (angle.name.starts_with(joint + ".")) angles.push_back(&angle);
   const size_t columns = angles.size() % 3 == 0 ? 3 : angles.size();
+  const size_t rows = angles.size() / columns;
   std::string panels;
-  for (size_t i = 0; i < angles.size(); ++i)
-    panels += artist.Draw(*angles[i], Artist::kWidth_px * static_cast<double>(i % columns),
-                          Artist::kHeight_px * static_cast<double>(i / columns));
+  for (size_t row = 0, next = 0; row < rows; ++row)
+    for (size_t column = 0; column < columns; ++column)
+      panels += artist.Draw(*angles[next++], kWidth_px * static_cast<double>(column),
+                            kHeight_px * static_cast<double>(row));
   std::ofstream file(path);
   file << fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" "
@@ -362,8 +364,7 @@ size_t WriteSheet(const Artist& artist, const std::vector<std::string>& joints,
       "<marker id=\"head\" viewBox=\"0 0 10 10\" refX=\"8\" refY=\"5\" markerWidth=\"5\" "
       "markerHeight=\"5\" orient=\"auto\"><path d=\"M0 0L10 5L0 10Z\" fill=\"#0072b2\"/></marker>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{2}</svg>\n",
-      Artist::kWidth_px * static_cast<double>(columns),
-      Artist::kHeight_px * static_cast<double>(angles.size() / columns), panels);
+      kWidth_px * static_cast<double>(columns), kHeight_px * static_cast<double>(rows), panels);
   if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
   return angles.size();
 }
