@@ -6,20 +6,21 @@
 
 namespace poselift {
 
-PersonPose PoseToPerson::Convert(const SkeletonPose& pose, double scale_px_per_m) {
+PersonPose PoseToPerson::Convert(const SkeletonPose& pose, const CameraTrack& camera,
+                                 double scale_px_per_m) {
   PersonPose person;
   const Pose3 joints_m = JointPositions(body_, pose).colwise() - pose.root_in_world_m;
   person.joints_in_cam_m = kLevelFromCam.toRotationMatrix() * joints_m;
   person.rotation_cam_from_body = kLevelFromCam * pose.world_from_root;
 
   const Eigen::Vector3d pelvis_in_cam_m =
-      kLevelFromCam * (pose.root_in_world_m + camera_.world_in_level_cam_m);
+      kLevelFromCam * (pose.root_in_world_m + camera.world_in_level_cam_m);
   person.scale_px_per_m = scale_px_per_m;
-  if (camera_.has_depth) {
+  if (camera.has_depth) {
     person.pelvis_in_cam_m = pelvis_in_cam_m;
-    person.scale_px_per_m = camera_.focal_px / pelvis_in_cam_m.z();
+    person.scale_px_per_m = camera.focal_px / pelvis_in_cam_m.z();
   }
-  person.translation_px = camera_.centre_px + person.scale_px_per_m * pelvis_in_cam_m.head<2>();
+  person.translation_px = camera.centre_px + person.scale_px_per_m * pelvis_in_cam_m.head<2>();
 
   last_deg_ = last_deg_.size() == 0 ? reader_.ReadDeg(pose) : reader_.ReadDeg(pose, last_deg_);
   for (Eigen::Index a = 0; a < last_deg_.size(); ++a)

@@ -16,16 +16,14 @@ namespace poselift {
 class PoseToPerson {
  public:
   // Throws InputError for a skeleton without the bones of the CMU skeleton.
-  PoseToPerson(const Skeleton& skeleton, const CameraTrack& camera)
-      : body_(skeleton), reader_(skeleton), camera_(camera) {}
+  explicit PoseToPerson(const Skeleton& skeleton) : body_(skeleton), reader_(skeleton) {}
 
   // The pose is known. scale_px_per_m: of the frame, where depth is not known.
-  PersonPose Convert(const SkeletonPose& pose, double scale_px_per_m);
+  PersonPose Convert(const SkeletonPose& pose, const CameraTrack& camera, double scale_px_per_m);
 
  private:
   Articulation body_;
   JointAngleReader reader_;
-  const CameraTrack& camera_;
   Eigen::VectorXd last_deg_;
 };
 

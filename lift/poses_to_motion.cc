@@ -206,7 +206,7 @@ Poses MotionToPoses(const Motion& motion, const PosesMotion& source,
                     const std::vector<std::string>& statuses) {
   if (statuses.size() != motion.frames.size())
     throw std::invalid_argument("MotionToPoses: a status for each frame is wanted");
-  PoseToPerson to_person(motion.skeleton, source.camera);
+  PoseToPerson to_person(motion.skeleton);
   Poses poses;
   if (source.bones) poses.bodies.push_back(*source.bones);
   for (size_t f = 0; f < motion.frames.size(); ++f) {
@@ -217,7 +217,7 @@ Poses MotionToPoses(const Motion& motion, const PosesMotion& source,
     PersonPose person =
         statuses[f] == kUnknownStatus
             ? PersonPose{}
-            : to_person.Convert(motion.frames[f],
+            : to_person.Convert(motion.frames[f], source.camera,
                                 f < scales_px_per_m.size() ? scales_px_per_m[f] : kUnknown);
     person.id = source.person_id;
     person.status = statuses[f];

@@ -9,10 +9,7 @@
 namespace poselift {
 namespace {
 
-// What turns no joint's place still counts a little.
-constexpr double kShortestLeverArm_m = 0.02;
 constexpr double kBandwidth = 0.35;  // of the farthest neighbour's distance
-constexpr int kPoseRows = kAccelerationInputs - kNumFeatures;
 
 }  // namespace
 

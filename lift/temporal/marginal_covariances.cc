@@ -5,12 +5,16 @@
 #include <ceres/crs_matrix.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
 namespace poselift {
 namespace {
+
+// Unknowns that nothing is said of have a covariance too, a large one.
+constexpr double kLeastInformation = 1e-9;
 
 // A symmetric matrix whose blocks couple with the next alone.
 struct BlockTridiagonal {
@@ -94,6 +98,20 @@ std::vector<Eigen::MatrixXd> MarginalCovariances(const ceres::CRSMatrix& jacobia
                                    : pair.bottomRightCorner(size, size));
   }
   return frames;
+}
+
+Eigen::MatrixXd CovarianceOfLast(const ceres::CRSMatrix& jacobian, int size) {
+  using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  const Eigen::Map<const RowMajor> J(
+      jacobian.num_rows, jacobian.num_cols, static_cast<Eigen::Index>(jacobian.values.size()),
+      jacobian.rows.data(), jacobian.cols.data(), jacobian.values.data());
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
+  factors.setShift(kLeastInformation);
+  factors.compute(J.transpose() * J);
+  if (factors.info() != Eigen::Success) return {};
+  Eigen::MatrixXd units = Eigen::MatrixXd::Zero(jacobian.num_cols, size);
+  units.bottomRows(size).setIdentity();
+  return factors.solve(units).bottomRows(size);
 }
 
 }  // namespace poselift

@@ -11,10 +11,6 @@ struct CRSMatrix;
 
 namespace poselift {
 
-// What is added to the diagonal of J^T J: unknowns that nothing is said of have a
-// covariance too, a large one.
-inline constexpr double kLeastInformation = 1e-9;
-
 // How sure the unknowns of each frame are in a least squares problem over time: the
 // diagonal blocks of (J^T J + 1e-9 I)^-1, J the Jacobian of the residuals over their
 // standard deviations. A block a frame, frame_sizes[t]^2; J's columns are the frames'
@@ -31,5 +27,9 @@ inline constexpr double kLeastInformation = 1e-9;
 // residuals of more frames and for sizes that are not those of J.
 std::vector<Eigen::MatrixXd> MarginalCovariances(const ceres::CRSMatrix& jacobian,
                                                  const std::vector<int>& frame_sizes);
+
+// The same of the last `size` unknowns, which all frames may have in common: a sparse
+// decomposition of the whole. Empty when it breaks down.
+Eigen::MatrixXd CovarianceOfLast(const ceres::CRSMatrix& jacobian, int size);
 
 }  // namespace poselift

@@ -75,8 +75,6 @@ Eigen::MatrixXf Mirrored(const Eigen::Ref<const Eigen::MatrixXf>& features,
   return MirroredFeatures(features.cast<double>(), skeleton).cast<float>();
 }
 
-constexpr int kPoseRows = kAccelerationInputs - kNumFeatures;
-
 // The pose and the rates of an input, each mirrored as what they are.
 Eigen::MatrixXf MirroredInputs(const Eigen::Ref<const Eigen::MatrixXf>& inputs,
                                const Skeleton& skeleton) {

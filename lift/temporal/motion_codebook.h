@@ -31,6 +31,7 @@ inline constexpr int kSegmentRows = kSegmentSamples * kNumFeatures;  // 230
 namespace segment_row {  // of a sample; the others are those of namespace feature
 inline constexpr int kPlace = 43, kYaw = 45;
 }  // namespace segment_row
+inline constexpr int kPoseRows = segment_row::kPlace;  // without place and yaw
 
 // How a codebook came to be; a part of its file.
 struct CodebookRecord {
@@ -52,7 +53,7 @@ struct CodebookRecord {
 // x among what was captured around x_c, R, 46 x kAccelerationRank, what follows.
 inline constexpr double kAccelerationTime_s = 1.0 / 15.0;
 inline constexpr int kAccelerationRank = 2;
-inline constexpr int kAccelerationInputs = 43 + kNumFeatures;
+inline constexpr int kAccelerationInputs = kPoseRows + kNumFeatures;
 
 struct AccelerationModels {  // a column a segment
   Eigen::Matrix<float, kNumFeatures, Eigen::Dynamic> means;
@@ -83,6 +84,9 @@ struct MotionCodebook {
 // How far the 23 joints move (RMS), metres, by a unit of each row of the middle
 // sample: mean over the codebook's segments.
 FeatureVector LeverArms(const MotionCodebook& codebook);
+// What turns no joint's place must not differ at will: where segments are compared,
+// no lever arm is shorter.
+inline constexpr double kShortestLeverArm_m = 0.02;
 
 // All segments of a database, every stride_frames-th frame as the middle, with
 // deviations of zero. None reaches beyond its trial. Rates are central

@@ -11,7 +11,6 @@
 #include <ceres/solver.h>
 #include <fmt/format.h>
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -112,17 +111,9 @@ class PieceProblem {
     options.parameter_blocks.push_back(log_ratios_->data());
     ceres::CRSMatrix rows;
     if (!problem_.Evaluate(options, nullptr, nullptr, nullptr, &rows)) return given;
-    using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-    const Eigen::Map<const RowMajor> J(rows.num_rows, rows.num_cols, std::ssize(rows.values),
-                                       rows.rows.data(), rows.cols.data(), rows.values.data());
-    const Eigen::SparseMatrix<double> H = J.transpose() * J;
-    Eigen::MatrixXd units = Eigen::MatrixXd::Zero(H.cols(), kNumBoneGroups);
-    units.bottomRows<kNumBoneGroups>().setIdentity();
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
-    factors.setShift(kLeastInformation);  // of where the picture is in frames without labels
-    factors.compute(H);
-    if (factors.info() != Eigen::Success) return given;
-    return {*log_ratios_, AlikeFrames() * factors.solve(units).bottomRows<kNumBoneGroups>()};
+    const Eigen::MatrixXd covariance = CovarianceOfLast(rows, kNumBoneGroups);
+    if (covariance.size() == 0) return given;
+    return {*log_ratios_, AlikeFrames() * covariance};
   }
 
   // Where the solve ended; of frames that are held they are empty.

@@ -17,8 +17,6 @@ namespace {
 // The part of the variance that k-means does not see. It leaves about a quarter
 // of the dimensions.
 constexpr double kUnseenVariance = 1e-3;
-// What turns no joint's place must not differ at will: a mean would be neither.
-constexpr double kShortestLeverArm_m = 0.02;
 constexpr Eigen::Index kBlock = 256;
 
 auto MiddleSamples(const MotionCodebook& codebook) {

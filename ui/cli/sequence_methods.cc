@@ -121,7 +121,7 @@ SequenceFilter Online(const Skeleton& skeleton,
             }
             const MotionSmoother as_it_is = [](const Motion& plain, int) { return plain; };
             const Motion smooth =
-                SmootherOnline(codebook, as_it_is, {.latency_s = latency_s})(motion, 1000);
+                SmootherOnline(codebook, as_it_is, {.latency_s = latency_s})(motion, 0);
             std::vector<Pose3> smoothed;
             for (const SkeletonPose& pose : smooth.frames)
               smoothed.push_back(kLevelFromCam.toRotationMatrix() * JointPositions(skeleton, pose));
@@ -161,8 +161,7 @@ std::vector<NamedSequenceMethod> SequenceMethods(const Dictionary& dictionary,
            },
            {}},
           {"poselift",
-           [lifter, together, angles = JointAngleReader(dictionary.skeleton)](
-               const Sequence& sequence, double frame_time_s) {
+           [lifter, together, angles](const Sequence& sequence, double frame_time_s) {
              return LiftTogether(*together, angles, sequence, frame_time_s);
            },
            {}}};

@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "lift/body_smoothing.h"
 #include "lift/default_dictionary.h"
 #include "lift/dictionary_file.h"
 #include "lift/poses_to_motion.h"
@@ -205,29 +204,25 @@ void RequireStreamOptions(const Options& options) {
     throw InputError("--lock-feet and --json want a file that ends: write poses.json instead");
 }
 
-int SmoothLines(const Options& options) {
+int SmoothStream(const Options& options) {
   RequireStreamOptions(options);
-  StreamOptions stream{options.input.person_id, std::nullopt, options.smoothing.online};
-  stream.online.max_gap_s = options.smooth.max_gap_s;
-  if (options.input.fps > 0.0) stream.frame_time_s = 1.0 / options.input.fps;
-  const Skeleton skeleton = ReadDictionary(options.input.dictionary.empty()
-                                               ? DefaultDictionaryPath()
-                                               : std::filesystem::path(options.input.dictionary))
-                                .skeleton;
-  const auto codebook = ReadCodebook(options.smoothing);
-  if (!IsSameBody(skeleton, codebook->skeleton))
-    throw InputError(
-        "found a dictionary and a motion model of different skeletons, wanted one skeleton: learn "
-        "both from the same motions");
-  const StreamReport report =
-      SmoothStreamFiles(options.in, options.out, skeleton, codebook, stream);
+  OnlineSmootherOptions online = options.smoothing.online;
+  online.max_gap_s = options.smooth.max_gap_s;
+  std::optional<double> frame_time_s;
+  if (options.input.fps > 0.0) frame_time_s = 1.0 / options.input.fps;
+  PersonStream stream(ReadDictionary(options.input.dictionary.empty()
+                                         ? DefaultDictionaryPath()
+                                         : std::filesystem::path(options.input.dictionary))
+                          .skeleton,
+                      ReadCodebook(options.smoothing), options.input.person_id, online);
+  const StreamReport report = SmoothLines(options.in, options.out, frame_time_s, &stream);
   fmt::print(stderr, "{} frames, {:.3g} s late; {} filled, {} not known\n", report.num_frames,
-             stream.online.latency_s, report.num_filled, report.num_unknown);
+             online.latency_s, report.num_filled, report.num_unknown);
   return kDone;
 }
 
 int Smooth(const Options& options) {
-  if (IsStream(options.in) || IsStream(options.out)) return SmoothLines(options);
+  if (IsStream(options.in) || IsStream(options.out)) return SmoothStream(options);
   const PosesMotion source = ReadMotionInput(options.in, options.input);
   const Smoothing smoothing = MakeSmoothing(options.method, source.motion, options.smoothing);
   SmoothedMotion smoothed = SmoothMotion(source.motion, smoothing.smoother, options.smooth);

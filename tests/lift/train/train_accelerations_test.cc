@@ -18,7 +18,6 @@ namespace {
 using testing::RandomMatrix;
 
 constexpr double kNoise = 0.05;
-constexpr int kPoseRows = kAccelerationInputs - kNumFeatures;
 
 class TrainAccelerationsTest : public ::testing::Test {
  protected:

@@ -22,6 +22,7 @@
 #include "tests/support/cmu_like_skeleton.h"
 #include "tests/support/made_up_asf.h"
 #include "tests/support/mutation.h"
+#include "tests/support/random_codebook.h"
 #include "tests/support/random_dictionary.h"
 #include "tests/support/support.h"
 
@@ -167,14 +168,8 @@ TEST(BrokenInput, DictionariesAreRefusedByInfo) {
 }
 
 TEST(BrokenInput, MotionCodebooksAreRefusedByInfo) {
-  MotionCodebook codebook;
-  codebook.skeleton = testing::SmallSkeleton();
-  codebook.segments.setOnes(kSegmentRows, 3);
-  codebook.rates.setOnes(kNumFeatures, 3);
-  codebook.deviations.setOnes(kNumFeatures, 3);
-  codebook.accelerations = AccelerationModels::Zero(3);
   const fs::path path = ScratchDir() / "m.plmotion";
-  WriteMotionCodebook(codebook, path);
+  WriteMotionCodebook(testing::RandomCodebook(3), path);
   const std::string whole = FileText(path);
   std::string altered = whole, newer = whole;
   altered[whole.size() / 2] ^= 1;

@@ -22,6 +22,7 @@
 #include "tests/support/cmu_like_skeleton.h"
 #include "tests/support/made_up_asf.h"
 #include "tests/support/mutation.h"
+#include "tests/support/random_codebook.h"
 #include "tests/support/random_dictionary.h"
 #include "tests/support/run_program.h"
 #include "tests/support/support.h"
@@ -181,12 +182,7 @@ TEST(Info, ReadsTheTrainingRecordOfADictionary) {
 }
 
 TEST(Info, ReadsTheTrainingRecordOfAMotionCodebook) {
-  MotionCodebook codebook;
-  codebook.skeleton = testing::SmallSkeleton();
-  codebook.segments.setOnes(kSegmentRows, 3);
-  codebook.rates.setOnes(kNumFeatures, 3);
-  codebook.deviations.setOnes(kNumFeatures, 3);
-  codebook.accelerations = AccelerationModels::Zero(3);
+  MotionCodebook codebook = testing::RandomCodebook(3);
   codebook.record.num_segments = 21;
   codebook.record.command = "poselift train --motion";
   WriteMotionCodebook(codebook, ScratchDir() / "by_content");
