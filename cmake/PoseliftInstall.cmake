@@ -7,11 +7,11 @@ include(CMakePackageConfigHelpers)
 add_library(poselift_all INTERFACE)
 add_library(poselift::poselift ALIAS poselift_all)
 set_target_properties(poselift_all PROPERTIES EXPORT_NAME poselift)
-target_link_libraries(poselift_all INTERFACE poselift::src poselift::lift)
+target_link_libraries(poselift_all INTERFACE poselift::src poselift::calib poselift::lift)
 
-install(TARGETS poselift_src poselift_lift poselift_all EXPORT poseliftTargets)
+install(TARGETS poselift_src poselift_calib poselift_lift poselift_all EXPORT poseliftTargets)
 install(TARGETS poselift)
-install(DIRECTORY src lift DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/poselift
+install(DIRECTORY src calib lift DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/poselift
   FILES_MATCHING PATTERN "*.h" PATTERN "eval" EXCLUDE)
 install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/poselift OPTIONAL
   FILES_MATCHING PATTERN "*.pldict" PATTERN "*.plmotion")

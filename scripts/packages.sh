@@ -8,7 +8,9 @@ build_packages=(
   g++ cmake ninja-build
   libeigen3-dev libceres-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev
-  libopencv-video-dev
+  libopencv-video-dev libopencv-calib3d-dev
+  libapriltag-dev libtomlplusplus-dev libyaml-cpp-dev libcairo2-dev libturbojpeg0-dev
+  libavformat-dev pkg-config
   libcli11-dev nlohmann-json3-dev libfmt-dev libspdlog-dev zlib1g-dev libhnswlib-dev
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
 )

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <Eigen/Core>
+
+namespace poselift {
+
+// The frame of a tag, `tag`: the origin at its centre, x to the right and y down as it is
+// printed, z into the paper. So a camera before an upright tag has the tag's axes.
+//
+// The size of a tag is the edge of the square between its black and its white border (not
+// that of the paper, nor of the whole pattern in the families whose pattern goes on outside).
+
+// A tag as a picture shows it.
+struct TagDetection {
+  int id = 0;
+  int hamming = 0;               // bits that had to be set right
+  double decision_margin = 0.0;  // how far off the threshold its bits are, grey levels
+  // Corners of that square, integer = pixel centre: top left, top right, bottom right,
+  // bottom left, as it is printed: (-1, -1), (1, -1), (1, 1), (-1, 1) half sizes in tag.
+  Eigen::Matrix<double, 2, 4> corners_px = Eigen::Matrix<double, 2, 4>::Zero();
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  // where its diagonals meet
+};
+
+// The same corners in tag, 3 x 4, metres.
+inline Eigen::Matrix<double, 3, 4> TagCorners_m(double size_m) {
+  Eigen::Matrix<double, 3, 4> corners;
+  corners << -1, 1, 1, -1, -1, -1, 1, 1, 0, 0, 0, 0;
+  return 0.5 * size_m * corners;
+}
+
+}  // namespace poselift
