@@ -29,11 +29,11 @@ Motion SmoothStream(const Motion& motion, OnlineSmoother* smoother) {
 }  // namespace
 
 MotionSmoother SmootherOnline(std::shared_ptr<const MotionCodebook> codebook, MotionSmoother rest,
-                              const OnlineSmootherOptions& options) {
+                              const MotionFilterOptions& options) {
   const Skeleton body = codebook->skeleton;
   const auto of_body = [codebook = std::move(codebook), options](const Motion& motion,
                                                                  int max_gap_frames) {
-    OnlineSmootherOptions of_motion = options;
+    MotionFilterOptions of_motion = options;
     of_motion.max_gap_s = std::min(kLongestGap_s, max_gap_frames * motion.frame_time_s);
     OnlineSmoother smoother(codebook, of_motion);
     return SmoothStream(motion, &smoother);

@@ -15,6 +15,6 @@ namespace poselift {
 // smoother; rest and errors as with SmootherOfBody, and
 // InputError for wrong options when it is called.
 MotionSmoother SmootherOnline(std::shared_ptr<const MotionCodebook> codebook, MotionSmoother rest,
-                              const OnlineSmootherOptions& options = {});
+                              const MotionFilterOptions& options = {});
 
 }  // namespace poselift

@@ -12,7 +12,7 @@
 namespace poselift {
 
 PersonStream::PersonStream(const Skeleton& skeleton, std::shared_ptr<const MotionCodebook> codebook,
-                           std::optional<int> person_id, const OnlineSmootherOptions& options)
+                           std::optional<int> person_id, const MotionFilterOptions& options)
     : skeleton_(skeleton),
       ik_(skeleton),
       smoother_(codebook, options),

@@ -22,7 +22,7 @@ class PersonStream {
   // person_id: else the first that is seen. codebook: with its mirror images. Throws
   // InputError for wrong options and for a codebook of another skeleton.
   PersonStream(const Skeleton& skeleton, std::shared_ptr<const MotionCodebook> codebook,
-               std::optional<int> person_id, const OnlineSmootherOptions& options);
+               std::optional<int> person_id, const MotionFilterOptions& options);
 
   // frame: with its time. Throws InputError when time does not go on.
   void Add(FramePoses frame);

@@ -206,7 +206,7 @@ void RequireStreamOptions(const Options& options) {
 
 int SmoothStream(const Options& options) {
   RequireStreamOptions(options);
-  OnlineSmootherOptions online = options.smoothing.online;
+  MotionFilterOptions online = options.smoothing.online;
   online.max_gap_s = options.smooth.max_gap_s;
   std::optional<double> frame_time_s;
   if (options.input.fps > 0.0) frame_time_s = 1.0 / options.input.fps;

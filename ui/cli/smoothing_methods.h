@@ -21,7 +21,7 @@ struct SmoothingOptions {
   std::optional<double> cutoff_hz;  // else 6 Hz, less for slow cameras
   SavitzkyGolayOptions savitzky_golay;
   OneEuroOptions one_euro;
-  OnlineSmootherOptions online;
+  MotionFilterOptions online;
   std::string motion_model;  // file; empty: the one that ships
 };
 

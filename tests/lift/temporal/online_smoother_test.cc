@@ -35,7 +35,7 @@ class OnlineSmootherTest : public ::testing::Test {
       pose = MovedBy(pose, FeatureVector::NullaryExpr([&] { return noise(rng); }));
   }
 
-  std::vector<SmoothedFrame> Run(const Motion& motion, const OnlineSmootherOptions& options) const {
+  std::vector<SmoothedFrame> Run(const Motion& motion, const MotionFilterOptions& options) const {
     OnlineSmoother smoother(codebook_, options);
     std::vector<SmoothedFrame> frames;
     for (size_t t = 0; t < motion.frames.size(); ++t) {
