@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
 
 namespace poselift {
 
@@ -21,6 +23,22 @@ struct TagDetection {
   // bottom left, as it is printed: (-1, -1), (1, -1), (1, 1), (-1, 1) half sizes in tag.
   Eigen::Matrix<double, 2, 4> corners_px = Eigen::Matrix<double, 2, 4>::Zero();
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  // where its diagonals meet
+};
+
+// A pose that explains the corners, by a calibrated camera. A flat square has two: it may
+// lean one way or the other.
+struct TagPose {
+  Eigen::Isometry3d cam_from_tag = Eigen::Isometry3d::Identity();  // metres
+  // Of small changes of it: a shift in cam (m), a turn in tag, R Exp(w) (rad).
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  double rms_px = 0.0;  // of the corners
+};
+
+// A tag with its poses, the likelier first.
+struct TagSighting {
+  TagDetection detection;
+  std::vector<TagPose> poses;
+  bool is_ambiguous = false;  // the picture alone does not tell which
 };
 
 // The same corners in tag, 3 x 4, metres.

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "lift/ik/rotation_derivative.h"
 #include "src/forward_kinematics.h"
 
 namespace poselift {
@@ -17,16 +18,6 @@ namespace {
 
 using RowMajorMap =
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
-
-// dw/dq: how a change of the coefficients x y z w turns the root,
-// R = Exp(w) R0. It is 2 (dq conj(q))_xyz.
-Eigen::Matrix<double, 3, 4> RotationByCoefficients(const Eigen::Quaterniond& q) {
-  Eigen::Matrix<double, 3, 4> jacobian;
-  jacobian << q.w(), -q.z(), q.y(), -q.x(),  //
-      q.z(), q.w(), -q.x(), -q.y(),          //
-      -q.y(), q.x(), q.w(), -q.z();
-  return 2.0 * jacobian;
-}
 
 // What the terms of f(q) share: reading the blocks, forward kinematics, and
 // writing the Jacobian block by block.
@@ -98,8 +89,7 @@ Eigen::Matrix3d LogByTurn(const Eigen::Vector3d& log) {
   constexpr double kSmall = 1e-4;
   const double c =
       angle < kSmall ? 1.0 / 12.0 : 1.0 / (angle * angle) - 0.5 / (angle * std::tan(0.5 * angle));
-  Eigen::Matrix3d cross;
-  cross << 0.0, -log.z(), log.y(), log.z(), 0.0, -log.x(), -log.y(), log.x(), 0.0;
+  const Eigen::Matrix3d cross = Cross(log);
   return Eigen::Matrix3d::Identity() + 0.5 * cross + c * cross * cross;
 }
 

@@ -3,10 +3,13 @@
 #include "lift/ik/pose_problem.h"
 
 #include <ceres/cost_function.h>
+#include <ceres/crs_matrix.h>
+#include <ceres/loss_function.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -64,8 +67,9 @@ PoseProblem::PoseProblem(const Articulation& body, const SkeletonPose& start,
 
 PoseProblem::~PoseProblem() = default;
 
-void PoseProblem::AddPoseTerm(std::unique_ptr<ceres::CostFunction> term) {
-  problem_->AddResidualBlock(term.release(), nullptr, pose_.root_in_world_m.data(),
+void PoseProblem::AddPoseTerm(std::unique_ptr<ceres::CostFunction> term, double cauchy) {
+  ceres::LossFunction* loss = cauchy > 0.0 ? new ceres::CauchyLoss(cauchy) : nullptr;
+  problem_->AddResidualBlock(term.release(), loss, pose_.root_in_world_m.data(),
                              pose_.world_from_root.coeffs().data(), pose_.dofs.data());
 }
 
@@ -112,6 +116,26 @@ PoseProblemOutcome PoseProblem::Solve(int max_iterations, double function_tolera
   pose_ = best_pose;
   camera_ = best_camera;
   return outcome;
+}
+
+Eigen::MatrixXd PoseProblem::Covariance() {
+  const Eigen::Index size = 6 + pose_.dofs.size();
+  problem_->SetParameterBlockVariable(pose_.dofs.data());
+  problem_->SetManifold(pose_.dofs.data(), nullptr);
+  ceres::Problem::EvaluateOptions options;
+  options.parameter_blocks = {pose_.root_in_world_m.data(), pose_.world_from_root.coeffs().data(),
+                              pose_.dofs.data()};
+  ceres::CRSMatrix sparse;
+  if (!problem_->Evaluate(options, nullptr, nullptr, nullptr, &sparse)) return {};
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(sparse.num_rows, size);
+  for (int row = 0; row < sparse.num_rows; ++row)
+    for (int i = sparse.rows[row]; i < sparse.rows[row + 1]; ++i)
+      jacobian(row, sparse.cols[i]) = sparse.values[i];
+  // A step d of EigenQuaternionManifold turns by 2 d.
+  jacobian.middleCols<3>(3) *= 0.5;
+  const Eigen::LLT<Eigen::MatrixXd> information(jacobian.transpose() * jacobian);
+  if (information.info() != Eigen::Success) return {};
+  return information.solve(Eigen::MatrixXd::Identity(size, size));
 }
 
 double PoseProblem::Cost() {

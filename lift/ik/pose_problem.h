@@ -56,8 +56,9 @@ class PoseProblem {
   PoseProblem(const PoseProblem&) = delete;
   PoseProblem& operator=(const PoseProblem&) = delete;
 
-  // Terms of root, rotation and dofs, and of the camera as well.
-  void AddPoseTerm(std::unique_ptr<ceres::CostFunction> term);
+  // Terms of root, rotation and dofs, and of the camera as well. Beyond `cauchy` standard
+  // deviations, of all its rows together, a term counts less and less; 0: never.
+  void AddPoseTerm(std::unique_ptr<ceres::CostFunction> term, double cauchy = 0.0);
   void AddCameraTerm(std::unique_ptr<ceres::CostFunction> term);
   void AddDofsTerm(std::unique_ptr<ceres::CostFunction> term);
   // The root stays where the start has it.
@@ -66,13 +67,20 @@ class PoseProblem {
   // Done when a step lowers the cost by less than function_tolerance times it.
   PoseProblemOutcome Solve(int max_iterations, double function_tolerance);
 
+  // How sure the pose is where it is now: the inverse of the Gauss-Newton matrix by the
+  // root's position, a small turn w of it in world, Exp(w) R, and the dofs,
+  // (6 + D) x (6 + D). Limits are not counted. Empty where it is singular, and when a
+  // term cannot be evaluated.
+  Eigen::MatrixXd Covariance();
+
+  double Cost();  // of the terms where the pose is now
+
   const SkeletonPose& pose() const { return pose_; }
   // log(scale_px_per_m), translation_px. Set before solving, read after.
   Eigen::Vector3d& camera() { return camera_; }
 
  private:
   PoseProblemOutcome Minimize(int max_iterations, double function_tolerance);
-  double Cost();
   bool HoldOutsideDofs();
   bool ReleaseInsideDofs();
   void ApplyHeld();

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <memory>
+
+#include "lift/ik/articulation.h"
+#include "src/tag_detection.h"
+
+namespace ceres {
+class CostFunction;
+}
+
+namespace poselift {
+
+using TagCorners = Eigen::Matrix<double, 2, 4>;
+
+// A tag on a bone, as a camera without lens distortion sees it. Corner i, c_i in the tag's
+// frame, is where the pose q has it:
+//
+//   x_i(q) = cam_from_world (start(q) + G(q) (R c_i + t)),   (R, t) = bone_from_tag,
+//   r(q)   = W [focal (x_i / z_i, y_i / z_i) - corner_i],    8 rows,
+//
+// with corners in pixels from the principal point. W^T W is the inverse of their
+// covariance, that of the noise and of how loosely the tag sits: TagWhitening.
+struct TagInPicture {
+  int bone = 0;
+  Eigen::Isometry3d bone_from_tag = Eigen::Isometry3d::Identity();  // metres
+  double size_m = 0.0;
+  TagCorners corners_px = TagCorners::Zero();
+  Eigen::Matrix<double, 8, 8> whitening = Eigen::Matrix<double, 8, 8>::Identity();
+};
+
+struct TagView {
+  double focal_px = 0.0;
+  Eigen::Isometry3d cam_from_world = Eigen::Isometry3d::Identity();
+};
+
+// Where the corners are seen, NaN when one is not before the camera.
+TagCorners ProjectTag(const TagView& view, const Eigen::Isometry3d& cam_from_tag, double size_m);
+
+// The inverse square root of  sigma_px^2 I + J diag(sigma_m^2, sigma_rad^2) J^T,  J by small
+// shifts and turns of the tag where it is.
+Eigen::Matrix<double, 8, 8> TagWhitening(const TagView& view, const Eigen::Isometry3d& cam_from_tag,
+                                         double size_m, double sigma_px, double sigma_m,
+                                         double sigma_rad);
+
+// Parameter blocks as in pose_costs.h: root_in_world_m, world_from_root, dofs. A corner
+// behind the camera fails the evaluation.
+std::unique_ptr<ceres::CostFunction> MakeTagCost(const Articulation& body, const TagView& view,
+                                                 const TagInPicture& tag);
+
+// The same with where the tag sits and the lengths of the bones as further unknowns:
+// behind its blocks come t (3), R (a unit quaternion x y z w) and the kNumBoneGroups log
+// ratios to the lengths of `standard` (body_proportions.h), whose bones end at the joints.
+std::unique_ptr<ceres::CostFunction> MakeTagFitCost(const Articulation& standard,
+                                                    const TagView& view, const TagInPicture& tag);
+
+// W (x_bone(q) - x): a point of a bone, measured in space with a covariance.
+struct PointInSpace {
+  int bone = 0;
+  Eigen::Vector3d x_in_bone_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d x_in_world_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d whitening = Eigen::Matrix3d::Identity();
+};
+std::unique_ptr<ceres::CostFunction> MakePointCost(const Articulation& body,
+                                                   const PointInSpace& point);
+
+}  // namespace poselift

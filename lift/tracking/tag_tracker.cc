@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "lift/tracking/tag_tracker.h"
+
+#include <ceres/cost_function.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lift/body_smoothing.h"
+#include "lift/ik/pose_problem.h"
+#include "lift/ik/rotation_derivative.h"
+#include "lift/temporal/pose_prediction.h"
+#include "src/input_error.h"
+
+namespace poselift {
+namespace {
+
+constexpr int kMaxIterations = 30;
+constexpr double kFunctionTolerance = 1e-4;
+constexpr double kPull_per_rad = 0.02;    // as RefinementOptions::pull_per_rad
+constexpr double kOutlier = 7.0;          // standard deviations of all corners together
+constexpr double kLeanUnknown_rad = 0.7;  // of a tag that may lean either way
+
+Eigen::Matrix3d InverseRoot(const Eigen::Matrix3d& covariance) {
+  const Eigen::Matrix3d lower = covariance.llt().matrixL();
+  return lower.triangularView<Eigen::Lower>().solve(Eigen::Matrix3d::Identity());
+}
+
+// The diagonal of a covariance by root, its small turn and the dofs, as PoseDifference.
+FeatureVector FeatureVariances(const Eigen::MatrixXd& covariance, const SkeletonPose& pose) {
+  const Eigen::Matrix3d heading_from_world =
+      Eigen::AngleAxisd(-Yaw(pose.world_from_root), Eigen::Vector3d::UnitY()).toRotationMatrix();
+  const auto turned = [&](Eigen::Index first) -> Eigen::Vector3d {
+    return (heading_from_world * covariance.block<3, 3>(first, first) *
+            heading_from_world.transpose())
+        .diagonal();
+  };
+  const Eigen::Vector3d place = turned(0), turn = turned(3);
+  FeatureVector variances;
+  variances << covariance.diagonal().tail<kNumAngles>(), place.y(), turn.x(), turn.z(), place.x(),
+      place.z(), turn.y();
+  return variances;
+}
+
+int BoneOf(const Articulation& body, const BodyTag& tag) {
+  const auto bone = body.skeleton.FindBone(tag.on_bone->bone);
+  if (!bone)
+    throw InputError(fmt::format("tag {}: found the bone '{}', wanted one of the skeleton's",
+                                 tag.id, tag.on_bone->bone));
+  return *bone;
+}
+
+std::ptrdiff_t NumBelieved(const std::vector<TrackedTag>& tags) {
+  return std::count_if(tags.begin(), tags.end(),
+                       [](const TrackedTag& tag) { return tag.is_believed; });
+}
+
+int JointOf(const BodyTag& tag) {
+  const auto joint = FindJoint(tag.on_joint->joint);
+  if (!joint)
+    throw InputError(fmt::format("tag {}: found the joint '{}', wanted a name of a joint", tag.id,
+                                 tag.on_joint->joint));
+  return *joint;
+}
+
+}  // namespace
+
+std::string TagTrackerOptions::Validate() const {
+  if (const std::string error = filter.Validate(); !error.empty()) return error;
+  if (!(corner_sigma_px > 0.0))
+    return fmt::format("TagTrackerOptions::corner_sigma_px = {}, wanted > 0", corner_sigma_px);
+  if (!(prior_weight >= 0.0))
+    return fmt::format("TagTrackerOptions::prior_weight = {}, wanted >= 0", prior_weight);
+  if (!(loss > 0.0)) return fmt::format("TagTrackerOptions::loss = {}, wanted > 0", loss);
+  if (least_tags < 1)
+    return fmt::format("TagTrackerOptions::least_tags = {}, wanted at least 1", least_tags);
+  return "";
+}
+
+TagTracker::TagTracker(const Skeleton& skeleton, const BodyTags& tags, const Camera& camera,
+                       const Eigen::Quaterniond& cam_from_world, const PhotoLifter& lifter,
+                       std::shared_ptr<const MotionCodebook> codebook,
+                       const TagTrackerOptions& options)
+    : body_(skeleton),
+      camera_(camera),
+      view_{camera.fx_px, Eigen::Isometry3d(cam_from_world)},
+      lifter_(lifter),
+      standard_(lifter.dictionary().skeleton),
+      options_(options),
+      filter_(codebook, skeleton, options.filter) {
+  if (const std::string error = options_.Validate(); !error.empty()) throw InputError(error);
+  for (const BodyTag& tag : tags.tags) {
+    Worn worn{.tag = tag};
+    if (tag.on_bone) worn.bone = BoneOf(body_, tag);
+    if (tag.on_joint) worn.joint = JointOf(tag);
+    worn_.push_back(std::move(worn));
+  }
+}
+
+void TagTracker::Add(double time_s, const std::vector<TagSighting>& sightings) {
+  const std::vector<Seen> seen = Known(sightings);
+  const auto prediction = filter_.Next(time_s, !seen.empty());
+  const double dt_s = time_s - std::exchange(last_s_, time_s);
+  std::optional<Solution> solution;
+  if (!seen.empty() && prediction) {
+    solution = SolveOn(seen, *prediction, dt_s);
+    // Where most tags speak against what was foretold, it was wrong.
+    if (!solution || 2 * NumBelieved(solution->tags) < std::ssize(solution->tags))
+      if (auto anew = SolveAnew(seen)) solution = std::move(anew);
+  } else if (!seen.empty()) {
+    solution = SolveAnew(seen);
+  }
+  waiting_.push_back(solution ? std::move(solution->tags) : std::vector<TrackedTag>());
+  if (!solution) return;
+  filter_.Measure(solution->pose, solution->variances);
+}
+
+std::optional<TrackedFrame> TagTracker::Take() {
+  auto frame = filter_.Take();
+  if (!frame) return std::nullopt;
+  TrackedFrame tracked{std::move(*frame), std::move(waiting_.front())};
+  waiting_.pop_front();
+  return tracked;
+}
+
+std::vector<TagTracker::Seen> TagTracker::Known(const std::vector<TagSighting>& sightings) const {
+  std::vector<Seen> known;
+  for (const TagSighting& sighting : sightings) {
+    const auto worn = std::find_if(worn_.begin(), worn_.end(), [&](const Worn& candidate) {
+      return candidate.tag.id == sighting.detection.id;
+    });
+    if (worn == worn_.end()) continue;
+    Seen seen{&*worn, &sighting, {}};
+    for (int i = 0; i < 4; ++i)
+      seen.corners_px.col(i) =
+          view_.focal_px * camera_.Undistort(sighting.detection.corners_px.col(i)).head<2>();
+    if (seen.corners_px.allFinite()) known.push_back(seen);
+  }
+  return known;
+}
+
+// The ends of the bones that wear tags, lifted.
+std::vector<SkeletonPose> TagTracker::FirstPoses(const std::vector<Seen>& seen) const {
+  Observation observation;
+  const auto add = [&](int joint, const Eigen::Vector3d& x_in_cam_m, double sigma_m) {
+    observation.points.push_back({.name = std::string(Joints()[static_cast<size_t>(joint)].name),
+                                  .parts = {{joint, 1.0}},
+                                  .kind = ObservedPoint::Kind::k3D,
+                                  .x = x_in_cam_m,
+                                  .sigma = sigma_m});
+  };
+  int num_tags = 0;
+  for (const Seen& tag : seen) {
+    if (tag.sighting->poses.empty()) continue;
+    const TagPose& pose = tag.sighting->poses.front();
+    const double place_m2 = pose.covariance.topLeftCorner<3, 3>().trace();
+    const double lean_rad2 = pose.covariance.bottomRightCorner<3, 3>().trace() +
+                             (tag.sighting->is_ambiguous ? kLeanUnknown_rad * kLeanUnknown_rad : 0);
+    ++num_tags;
+    if (tag.worn->bone >= 0) {
+      const TagOnBone& mount = *tag.worn->tag.on_bone;
+      const Eigen::Isometry3d cam_from_bone = pose.cam_from_tag * mount.bone_from_tag.inverse();
+      const Bone& bone = body_.skeleton.bones[static_cast<size_t>(tag.worn->bone)];
+      const double rad2 = lean_rad2 + mount.sigma_rad * mount.sigma_rad;
+      const auto add_end = [&](int joint, const Eigen::Vector3d& x_in_bone_m) {
+        const double lever_m = (x_in_bone_m - mount.bone_from_tag.translation()).norm();
+        add(joint, cam_from_bone * x_in_bone_m,
+            std::sqrt(place_m2 + mount.sigma_m * mount.sigma_m + lever_m * lever_m * rad2));
+      };
+      add_end(tag.worn->bone, bone.tip_m);
+      if (bone.parent >= 0) add_end(bone.parent, Eigen::Vector3d::Zero());
+    } else {
+      const TagOnJoint& mount = *tag.worn->tag.on_joint;
+      const double lever_m2 = mount.joint_in_tag_m.squaredNorm();
+      add(tag.worn->joint, pose.cam_from_tag * mount.joint_in_tag_m,
+          std::sqrt(place_m2 + mount.sigma_m * mount.sigma_m + lever_m2 * lean_rad2));
+    }
+  }
+  if (num_tags < options_.least_tags) return {};
+  std::vector<SkeletonPose> poses;
+  for (const LiftedPose& lifted : lifter_.LiftPhoto(observation).poses) {
+    SkeletonPose pose = lifted.pose;
+    pose.root_in_world_m = MeanShift_m(observation, lifted.joints_in_cam_m);
+    const Eigen::Isometry3d world_from_cam = view_.cam_from_world.inverse();
+    pose.root_in_world_m = world_from_cam * pose.root_in_world_m;
+    pose.world_from_root = Eigen::Quaterniond(world_from_cam.linear()) * pose.world_from_root;
+    poses.push_back(std::move(pose));
+  }
+  return poses;
+}
+
+std::optional<TagTracker::Solution> TagTracker::SolveOn(const std::vector<Seen>& seen,
+                                                        const MotionFilter::Prediction& prediction,
+                                                        double dt_s) const {
+  const double prior_weight = options_.prior_weight * std::sqrt(dt_s);
+  auto solution = Solve(seen, prediction.pose, prediction, prior_weight, options_.loss);
+  if (solution && NumBelieved(solution->tags) == std::ssize(solution->tags)) return solution;
+  // A tag that is far off may be wrong, or just too far for its loss: with all believed
+  // at first it is found out.
+  const auto firm = Solve(seen, prediction.pose, prediction, prior_weight, 0.0);
+  if (!firm) return solution;
+  auto other = Solve(seen, firm->pose, prediction, prior_weight, options_.loss);
+  return other && (!solution || other->cost < solution->cost) ? other : solution;
+}
+
+std::optional<TagTracker::Solution> TagTracker::SolveAnew(const std::vector<Seen>& seen) const {
+  std::optional<Solution> best;
+  for (const SkeletonPose& start : FirstPoses(seen))
+    if (auto solution = Solve(seen, start, std::nullopt, options_.prior_weight, options_.loss))
+      if (!best || solution->cost < best->cost) best = std::move(solution);
+  return best;
+}
+
+Eigen::Isometry3d TagTracker::CamFromBone(const BoneFrames& frames, int bone) const {
+  Eigen::Isometry3d world_from_bone = Eigen::Isometry3d::Identity();
+  world_from_bone.linear() = frames.world_from_bone[static_cast<size_t>(bone)];
+  world_from_bone.translation() = frames.start_in_world_m.col(bone);
+  return view_.cam_from_world * world_from_bone;
+}
+
+TagInPicture TagTracker::InPicture(const Seen& tag, const BoneFrames& frames) const {
+  const TagOnBone& mount = *tag.worn->tag.on_bone;
+  const Eigen::Isometry3d cam_from_tag = CamFromBone(frames, tag.worn->bone) * mount.bone_from_tag;
+  const double size_m = tag.worn->tag.size_m;
+  return {tag.worn->bone, mount.bone_from_tag, size_m, tag.corners_px,
+          TagWhitening(view_, cam_from_tag, size_m, options_.corner_sigma_px, mount.sigma_m,
+                       mount.sigma_rad)};
+}
+
+// The joint as the tag has it; of the two ways it may lean, the one that is nearer.
+PointInSpace TagTracker::InSpace(const Seen& tag, const BoneFrames& frames) const {
+  const TagOnJoint& mount = *tag.worn->tag.on_joint;
+  const Bone& bone = body_.skeleton.bones[static_cast<size_t>(tag.worn->joint)];
+  const Eigen::Vector3d expected_m = CamFromBone(frames, tag.worn->joint) * bone.tip_m;
+  const auto off = [&](const TagPose& pose) {
+    return (pose.cam_from_tag * mount.joint_in_tag_m - expected_m).norm();
+  };
+  const TagPose& pose =
+      *std::min_element(tag.sighting->poses.begin(), tag.sighting->poses.end(),
+                        [&](const TagPose& a, const TagPose& b) { return off(a) < off(b); });
+  const Eigen::Matrix3d R = pose.cam_from_tag.linear();
+  const Eigen::Matrix3d by_turn = -R * Cross(mount.joint_in_tag_m);
+  const Eigen::Matrix3d in_cam =
+      pose.covariance.topLeftCorner<3, 3>() +
+      by_turn * pose.covariance.bottomRightCorner<3, 3>() * by_turn.transpose() +
+      mount.sigma_m * mount.sigma_m * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d world_from_cam = view_.cam_from_world.linear().transpose();
+  return {tag.worn->joint, bone.tip_m,
+          view_.cam_from_world.inverse() * (pose.cam_from_tag * mount.joint_in_tag_m),
+          InverseRoot(in_cam) * world_from_cam.transpose()};
+}
+
+// How far the tags are from where the pose has them.
+std::vector<TrackedTag> TagTracker::Judge(const std::vector<Seen>& seen,
+                                          const SkeletonPose& pose) const {
+  BoneFrames frames;
+  ForwardKinematics(body_.skeleton, pose, &frames);
+  std::vector<TrackedTag> tags;
+  for (const Seen& tag : seen) {
+    TrackedTag tracked{.id = tag.worn->tag.id, .is_ambiguous = tag.sighting->is_ambiguous};
+    if (tag.worn->bone >= 0) {
+      const TagInPicture picture = InPicture(tag, frames);
+      const TagCorners off_px =
+          ProjectTag(view_, CamFromBone(frames, picture.bone) * picture.bone_from_tag,
+                     picture.size_m) -
+          picture.corners_px;
+      tracked.error_px = off_px.norm() / 2.0;
+      tracked.is_believed =
+          (picture.whitening * Eigen::Map<const Eigen::Matrix<double, 8, 1>>(off_px.data()))
+              .norm() < kOutlier;
+    } else if (!tag.sighting->poses.empty()) {
+      const PointInSpace point = InSpace(tag, frames);
+      const Eigen::Vector3d x_in_cam_m = CamFromBone(frames, point.bone) * point.x_in_bone_m;
+      const Eigen::Vector3d seen_in_cam_m = view_.cam_from_world * point.x_in_world_m;
+      tracked.error_px =
+          view_.focal_px * (x_in_cam_m.hnormalized() - seen_in_cam_m.hnormalized()).norm();
+      tracked.is_believed =
+          (point.whitening * (view_.cam_from_world.inverse() * x_in_cam_m - point.x_in_world_m))
+              .norm() < kOutlier;
+    }
+    tags.push_back(tracked);
+  }
+  return tags;
+}
+
+void TagTracker::AddTags(const std::vector<Seen>& seen, const SkeletonPose& start, double loss,
+                         PoseProblem* problem) const {
+  BoneFrames frames;
+  ForwardKinematics(body_.skeleton, start, &frames);
+  for (const Seen& tag : seen) {
+    if (tag.worn->bone >= 0)
+      problem->AddPoseTerm(MakeTagCost(body_, view_, InPicture(tag, frames)), loss);
+    else if (!tag.sighting->poses.empty())
+      problem->AddPoseTerm(MakePointCost(body_, InSpace(tag, frames)), loss);
+  }
+}
+
+std::optional<TagTracker::Solution> TagTracker::Solve(
+    const std::vector<Seen>& seen, const SkeletonPose& start,
+    const std::optional<MotionFilter::Prediction>& prediction, double prior_weight,
+    double loss) const {
+  // Captured motion leaves the limits of its dofs often, and tags see it.
+  PoseProblem problem(body_, start, {DofLimits(body_, false), start.dofs, kPull_per_rad, 0.0});
+  AddTags(seen, start, loss, &problem);
+  if (prediction) {
+    const FeatureVector whitening = prediction->variances.cwiseSqrt().cwiseInverse();
+    problem.AddPoseTerm(MakePredictionCost({prediction->pose, whitening.asDiagonal()}, 1.0));
+  }
+  const PosePrior& prior = lifter_.dictionary().prior;
+  const PosePrior weighted{prior.mean_m, prior_weight * prior.whitening};
+  if (!prior.Empty() && prior_weight > 0.0) problem.AddDofsTerm(MakePriorCost(standard_, weighted));
+  if (!IsUsable(problem.Solve(kMaxIterations, kFunctionTolerance).status)) return std::nullopt;
+  const Eigen::MatrixXd covariance = problem.Covariance();
+  if (covariance.size() == 0) return std::nullopt;
+  const SkeletonPose& pose = problem.pose();
+  return Solution{pose, FeatureVariances(covariance, pose), problem.Cost(), Judge(seen, pose)};
+}
+
+}  // namespace poselift

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lift/lift_photo.h"
+#include "lift/temporal/motion_filter.h"
+#include "lift/tracking/tag_cost.h"
+#include "src/body_tags.h"
+#include "src/camera.h"
+#include "src/tag_detection.h"
+
+namespace poselift {
+
+class PoseProblem;
+
+// The pose of a person who wears tags, frame after frame. Each frame is the maximum of
+//
+//   sum_tags rho(|W (corners(q) - corners)|^2)          tags on bones (tag_cost.h)
+// + sum_tags rho(|W (x_joint(q) - x)|^2)                tags by a joint, at their pose
+// + |q - foretold|^2 by its variances                   the motion model (motion_filter.h)
+// + dt prior_weight^2 |whitening (f_0(q) - mean)|^2     how common poses are
+//
+// over q, by Levenberg-Marquardt; its curvature says how sure the pose is, and both go
+// back to the filter. Corners do not choose between the two ways a tag may lean, the
+// body does. Without a foretold pose the joints that the tags tell are lifted
+// (PhotoLifter), and each pose that comes of it is a start.
+struct TagTrackerOptions {
+  MotionFilterOptions filter{.latency_s = 0.0, .variance_scale = 15.0};
+  double corner_sigma_px = 0.25;
+  double prior_weight = 1.5;
+  double loss = 6.0;   // Cauchy: standard deviations of all a tag's corners together
+  int least_tags = 3;  // for a pose out of nothing
+
+  std::string Validate() const;  // empty, or which option is wrong and why
+};
+
+struct TrackedTag {
+  int id = 0;
+  bool is_ambiguous = false;
+  bool is_believed = true;
+  double error_px = 0.0;  // of its corners to the pose, RMS
+};
+
+struct TrackedFrame {
+  SmoothedFrame body;            // in world: y up, the camera at the origin
+  std::vector<TrackedTag> tags;  // that the person wears and the frame shows
+};
+
+class TagTracker {
+ public:
+  // skeleton: the person's. cam_from_world: how the camera stands, a rotation. lifter and
+  // its dictionary must outlive this. Throws InputError for wrong options, for tags on
+  // bones or joints that the skeleton does not have, and for a codebook of another body.
+  TagTracker(const Skeleton& skeleton, const BodyTags& tags, const Camera& camera,
+             const Eigen::Quaterniond& cam_from_world, const PhotoLifter& lifter,
+             std::shared_ptr<const MotionCodebook> codebook, const TagTrackerOptions& options = {});
+
+  // The next frame; tags of others are passed over. Throws InputError when time does not go on.
+  void Add(double time_s, const std::vector<TagSighting>& seen);
+  void End() { filter_.End(); }  // no more frames come
+  // The oldest frame that has waited for long enough.
+  std::optional<TrackedFrame> Take();
+
+ private:
+  struct Worn {
+    BodyTag tag;
+    int bone = -1;   // on_bone
+    int joint = -1;  // on_joint
+  };
+  struct Seen {
+    const Worn* worn;
+    const TagSighting* sighting;
+    TagCorners corners_px;  // without distortion, from the principal point
+  };
+  struct Solution {
+    SkeletonPose pose;
+    FeatureVector variances;
+    double cost = 0.0;
+    std::vector<TrackedTag> tags;
+  };
+
+  std::vector<Seen> Known(const std::vector<TagSighting>& seen) const;
+  std::vector<SkeletonPose> FirstPoses(const std::vector<Seen>& seen) const;
+  std::optional<Solution> Solve(const std::vector<Seen>& seen, const SkeletonPose& start,
+                                const std::optional<MotionFilter::Prediction>& prediction,
+                                double prior_weight, double loss) const;
+  std::optional<Solution> SolveOn(const std::vector<Seen>& seen,
+                                  const MotionFilter::Prediction& prediction, double dt_s) const;
+  std::optional<Solution> SolveAnew(const std::vector<Seen>& seen) const;
+  void AddTags(const std::vector<Seen>& seen, const SkeletonPose& start, double loss,
+               PoseProblem* problem) const;
+  std::vector<TrackedTag> Judge(const std::vector<Seen>& seen, const SkeletonPose& pose) const;
+  TagInPicture InPicture(const Seen& tag, const BoneFrames& frames) const;
+  PointInSpace InSpace(const Seen& tag, const BoneFrames& frames) const;
+  Eigen::Isometry3d CamFromBone(const BoneFrames& frames, int bone) const;
+
+  Articulation body_;
+  Camera camera_;
+  TagView view_;
+  const PhotoLifter& lifter_;
+  Articulation standard_;  // the skeleton that poses were learned on
+  TagTrackerOptions options_;
+  std::vector<Worn> worn_;
+  MotionFilter filter_;
+  double last_s_ = 0.0;
+  std::deque<std::vector<TrackedTag>> waiting_;
+};
+
+}  // namespace poselift
