@@ -26,7 +26,7 @@ struct TagFitOptions {
   int rounds = 2;        // of tracking and adjusting
   double corner_sigma_px = 0.25;
   double loss = 6.0;          // Cauchy, as in TagTrackerOptions
-  double prior_weight = 0.4;  // of the pose prior
+  double prior_weight = 0.1;  // of the pose prior
   // What a mount is never known better than: skin moves on bones.
   double least_sigma_m = 0.003;
   double least_sigma_rad = 0.02;
