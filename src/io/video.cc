@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <system_error>
 
 #include "src/input_error.h"
@@ -68,7 +69,7 @@ void TurnUpright(int clockwise_deg, cv::Mat* picture) {
 
 }  // namespace
 
-VideoFile::VideoFile(const fs::path& path) : path_(path) {
+VideoFile::VideoFile(const fs::path& path, Pictures pictures) : path_(path), pictures_(pictures) {
   CheckFile(path);
   if (MissingBytes(path) > 0) throw CutShort(path);
   QuietDecoders();
@@ -146,6 +147,8 @@ std::optional<VideoFrame> VideoFile::Next() {
         path_,
         fmt::format("found {} x {} pixels in frame {}, wanted {} x {} as before", frame.bgr.cols,
                     frame.bgr.rows, index_, size_px_.width, size_px_.height));
+  if (pictures_ != Pictures::kBgr) cv::cvtColor(frame.bgr, frame.grey, cv::COLOR_BGR2GRAY);
+  if (pictures_ == Pictures::kGrey) frame.bgr.release();
   frame.time_s = *Skip_s();
   return frame;
 }

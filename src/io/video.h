@@ -24,7 +24,7 @@ namespace poselift {
 // grow. stderr is silent meanwhile (see quiet_stderr.h).
 class VideoFile : public FrameSource {
  public:
-  explicit VideoFile(const std::filesystem::path& path);
+  explicit VideoFile(const std::filesystem::path& path, Pictures pictures = Pictures::kBgr);
 
   cv::Size size_px() const override { return size_px_; }
   std::optional<VideoFrame> Next() override;
@@ -36,6 +36,7 @@ class VideoFile : public FrameSource {
   void CheckEnd() const;
 
   std::filesystem::path path_;
+  Pictures pictures_;
   cv::VideoCapture capture_;
   cv::Size size_px_;  // upright
   int turn_clockwise_deg_ = 0;
