@@ -53,6 +53,13 @@ void QuietDecoders() {
   static_cast<void>(set);
 }
 
+// Matroska and WebM state how long they are; OpenCV multiplies that by a guessed rate.
+bool StatesFrames(const fs::path& path) {
+  std::array<char, 4> head{};
+  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
+  return std::string_view(head.data(), head.size()) != "\x1a\x45\xdf\xa3"sv;
+}
+
 // By how much a frame is to be turned clockwise to stand upright. OpenCV 4.6 has
 // the sign wrong and turns such frames upside down (opencv/opencv#22088).
 int TurnClockwise_deg(const cv::VideoCapture& capture) {
@@ -84,7 +91,7 @@ VideoFile::VideoFile(const fs::path& path, Pictures pictures) : path_(path), pic
   if (static_cast<double>(size_px_.width) * size_px_.height > kMaxImagePixels)
     throw InputError(path, fmt::format("has {} x {} pixels, wanted at most {:.0f} million",
                                        size_px_.width, size_px_.height, kMaxImagePixels / 1e6));
-  stated_frames_ = capture_.get(cv::CAP_PROP_FRAME_COUNT);
+  if (StatesFrames(path)) stated_frames_ = capture_.get(cv::CAP_PROP_FRAME_COUNT);
   if (!open || !Advance()) throw CutShort(path);
 }
 

@@ -19,7 +19,7 @@ namespace poselift {
 // over, so after damage fewer frames come, at their right times.
 //
 // Throws InputError, here and while it is read: no such file, empty, no video,
-// cut short (told by the container, or by less than half of the stated frames),
+// cut short (told by the container, or by less than half of the frames it states),
 // more than kMaxImagePixels (image.h), a size that changes, times that do not
 // grow. stderr is silent meanwhile (see quiet_stderr.h).
 class VideoFile : public FrameSource {
