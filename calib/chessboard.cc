@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "calib/chessboard.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "src/input_error.h"
+
+namespace poselift {
+namespace {
+
+constexpr int kFewestCorners = 3;  // a side; the finder knows no less
+constexpr int kMostCorners = 50;
+// On real photos only both flags together find every whole board, and take exactly the
+// counts asked for.
+constexpr int kFlags = cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_NORMALIZE_IMAGE;
+
+struct Corners {
+  std::vector<cv::Point2f> px;  // row by row
+  int rows = 0;
+  int columns = 0;
+};
+
+// No corners when there is no such board. The finder of OpenCV 4.6 may throw on odd pictures,
+// and can give corners that are no grid (opencv#15712).
+Corners FindCorners(const cv::Mat& grey, const BoardCounts& counts, int flags) {
+  Corners corners;
+  cv::Mat meta;
+  try {
+    if (!cv::findChessboardCornersSB(grey, cv::Size(counts.columns, counts.rows), corners.px, flags,
+                                     meta))
+      return {};
+  } catch (const cv::Exception&) {
+    return {};
+  }
+  corners.rows = meta.rows;
+  corners.columns = meta.cols;
+  return static_cast<int>(corners.px.size()) == meta.rows * meta.cols ? corners : Corners{};
+}
+
+Eigen::Vector2d At(const Corners& corners, int row, int column) {
+  const cv::Point2f& p = corners.px[static_cast<size_t>(row * corners.columns + column)];
+  return {p.x, p.y};
+}
+
+// Each inner corner lies about midway between its neighbours, which perspective and the lens
+// move by a small part of a square only.
+bool IsGrid(const Corners& corners) {
+  constexpr double kFarthest = 0.25;  // of the distance of the neighbours
+  const auto is_midway = [&](int row, int column, int dr, int dc) {
+    const Eigen::Vector2d a = At(corners, row - dr, column - dc);
+    const Eigen::Vector2d b = At(corners, row + dr, column + dc);
+    return (At(corners, row, column) - 0.5 * (a + b)).norm() <= kFarthest * (a - b).norm();
+  };
+  for (int row = 0; row < corners.rows; ++row)
+    for (int column = 0; column < corners.columns; ++column) {
+      if (row > 0 && row + 1 < corners.rows && !is_midway(row, column, 1, 0)) return false;
+      if (column > 0 && column + 1 < corners.columns && !is_midway(row, column, 0, 1)) return false;
+    }
+  return !corners.px.empty();
+}
+
+// Whether a camera that is no mirror sees rows and columns so.
+bool IsRightHanded(const Corners& corners) {
+  const Eigen::Vector2d along = At(corners, 0, corners.columns - 1) - At(corners, 0, 0);
+  const Eigen::Vector2d down = At(corners, corners.rows - 1, 0) - At(corners, 0, 0);
+  return along.x() * down.y() - along.y() * down.x() > 0.0;
+}
+
+// The finder gives either hand (opencv#22083).
+void MakeRightHanded(Corners* corners) {
+  if (IsRightHanded(*corners)) return;
+  for (int row = 0; row < corners->rows; ++row) {
+    const auto begin = corners->px.begin() + row * corners->columns;
+    std::reverse(begin, begin + corners->columns);
+  }
+}
+
+// Large pictures are not needed to count.
+cv::Mat Reduced(const cv::Mat& grey) {
+  constexpr double kPixels = 1e6;
+  const double scale = std::sqrt(kPixels / static_cast<double>(grey.total()));
+  if (scale >= 1.0) return grey;
+  cv::Mat reduced;
+  cv::resize(grey, reduced, {}, scale, scale, cv::INTER_AREA);
+  return reduced;
+}
+
+}  // namespace
+
+std::string Chessboard::Validate() const {
+  for (const int count : {rows, columns})
+    if (count < kFewestCorners || count > kMostCorners)
+      return fmt::format("found a chessboard of {} x {} inner corners, wanted {} to {} a side",
+                         rows, columns, kFewestCorners, kMostCorners);
+  if (!(square_m > 0.0 && square_m < 10.0))
+    return fmt::format("found squares of {:g} m, wanted more than 0 and less than 10 m", square_m);
+  return {};
+}
+
+CalibrationBoard Chessboard::Board() const {
+  CalibrationBoard board;
+  board.name = fmt::format("chessboard of {} x {} inner corners, squares of {:g} mm", rows, columns,
+                           1e3 * square_m);
+  board.corners_in_board_m.resize(2, rows * columns);
+  for (int i = 0; i < rows * columns; ++i)
+    board.corners_in_board_m.col(i) = square_m * Eigen::Vector2d(i % columns, i / columns);
+  return board;
+}
+
+ChessboardFinder::ChessboardFinder(const Chessboard& chessboard) : chessboard_(chessboard) {
+  if (const std::string flaw = chessboard.Validate(); !flaw.empty()) throw InputError(flaw);
+  board_ = chessboard.Board();
+}
+
+BoardView ChessboardFinder::Find(const cv::Mat& grey) {
+  Corners corners = FindCorners(grey, counts(), kFlags);
+  if (!IsGrid(corners)) return {};
+  MakeRightHanded(&corners);
+  BoardView view;
+  view.ids.resize(corners.px.size());
+  std::iota(view.ids.begin(), view.ids.end(), 0);
+  view.corners_px.resize(2, static_cast<Eigen::Index>(corners.px.size()));
+  for (Eigen::Index i = 0; i < view.corners_px.cols(); ++i)
+    view.corners_px.col(i) << corners.px[static_cast<size_t>(i)].x,
+        corners.px[static_cast<size_t>(i)].y;
+  return view;
+}
+
+BoardAbsence ChessboardFinder::Explain(const cv::Mat& grey) {
+  const cv::Mat reduced = Reduced(grey);
+  std::vector<BoardCounts> candidates = seen_;
+  // Fewer first: with a row hidden or outside of the picture that is what is left.
+  for (const auto& [rows, columns] :
+       {std::pair{-1, -1}, {0, -1}, {-1, 0}, {1, 1}, {0, 1}, {1, 0}, {-1, 1}, {1, -1}})
+    candidates.push_back({chessboard_.rows + rows, chessboard_.columns + columns});
+  for (const BoardCounts& candidate : candidates) {
+    if (std::min(candidate.rows, candidate.columns) < kFewestCorners) continue;
+    if (!IsGrid(FindCorners(reduced, candidate, kFlags))) continue;
+    if (std::find(seen_.begin(), seen_.end(), candidate) == seen_.end()) seen_.push_back(candidate);
+    return {candidate};
+  }
+  // Any board, of which it may see a part only.
+  const Corners any = FindCorners(reduced, {kFewestCorners, kFewestCorners},
+                                  cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_LARGER);
+  if (!IsGrid(any)) return {};
+  BoardCounts counts{std::min(any.rows, any.columns), std::max(any.rows, any.columns)};
+  if (chessboard_.rows > chessboard_.columns) std::swap(counts.rows, counts.columns);
+  return {counts};
+}
+
+}  // namespace poselift
