@@ -96,6 +96,14 @@ void MotionFilter::Measure(const SkeletonPose& pose, const FeatureVector& varian
   LearnFloor(pose, frame.dt_s);
 }
 
+std::optional<SkeletonPose> MotionFilter::Ahead(double time_s) const {
+  const Frame* newest = !frames_.empty() ? &frames_.back()
+                        : newest_taken_  ? &*newest_taken_
+                                         : nullptr;
+  if (!newest || newest->kind == Kind::kNotKnown) return std::nullopt;
+  return MovedBy(newest->filtered, (time_s - newest->time_s) * newest->rates);
+}
+
 // A frame that is measured may follow any that is known, if its step is one.
 bool MotionFilter::GoesOn(const Frame& before, double time_s, bool will_measure) const {
   if (before.kind == Kind::kNotKnown || !IsKnown(before.filtered)) return false;

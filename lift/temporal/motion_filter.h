@@ -61,6 +61,9 @@ class MotionFilter {
   // Of the newest frame: its pose and the variances of that in the light of what was
   // foretold too; without that, as they were measured.
   void Measure(const SkeletonPose& pose, const FeatureVector& variances);
+  // Where the body will be by the newest rates, at a time soon after the newest frame;
+  // nothing when that is not known.
+  std::optional<SkeletonPose> Ahead(double time_s) const;
   // No more frames come: the rest may go out.
   void End() { has_ended_ = true; }
   // The oldest frame that has waited for long enough, if there is one.

@@ -22,6 +22,7 @@ constexpr int kMaxIterations = 30;
 constexpr double kFunctionTolerance = 1e-4;
 constexpr double kPull_per_rad = 0.02;    // as RefinementOptions::pull_per_rad
 constexpr double kOutlier = 7.0;          // standard deviations of all corners together
+constexpr double kLeastFacing = 0.2;  // cosine: a tag that is seen more from the side is lost
 constexpr double kLeanUnknown_rad = 0.7;  // of a tag that may lean either way
 
 Eigen::Matrix3d InverseRoot(const Eigen::Matrix3d& covariance) {
@@ -124,6 +125,29 @@ std::optional<TrackedFrame> TagTracker::Take() {
   TrackedFrame tracked{std::move(*frame), std::move(waiting_.front())};
   waiting_.pop_front();
   return tracked;
+}
+
+std::vector<TagDetection> TagTracker::Expected(double time_s) const {
+  std::vector<TagDetection> expected;
+  const auto pose = filter_.Ahead(time_s);
+  if (!pose) return expected;
+  BoneFrames frames;
+  ForwardKinematics(body_.skeleton, *pose, &frames);
+  for (const Worn& worn : worn_) {
+    if (worn.bone < 0) continue;
+    const Eigen::Isometry3d cam_from_tag =
+        CamFromBone(frames, worn.bone) * worn.tag.on_bone->bone_from_tag;
+    const Eigen::Vector3d into_tag = cam_from_tag.linear().col(2);
+    if (into_tag.dot(cam_from_tag.translation().normalized()) < kLeastFacing) continue;
+    TagDetection tag{.id = worn.tag.id};
+    const Eigen::Matrix<double, 3, 4> corners_m = cam_from_tag * TagCorners_m(worn.tag.size_m);
+    for (int i = 0; i < 4; ++i) tag.corners_px.col(i) = camera_.Project(corners_m.col(i));
+    tag.centre_px = tag.corners_px.rowwise().mean();
+    const bool inside = tag.centre_px.x() >= 0.0 && tag.centre_px.x() < camera_.width_px &&
+                        tag.centre_px.y() >= 0.0 && tag.centre_px.y() < camera_.height_px;
+    if (tag.corners_px.allFinite() && inside) expected.push_back(tag);
+  }
+  return expected;
 }
 
 std::vector<TagTracker::Seen> TagTracker::Known(const std::vector<TagSighting>& sightings) const {

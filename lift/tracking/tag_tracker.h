@@ -67,6 +67,10 @@ class TagTracker {
   // The oldest frame that has waited for long enough.
   std::optional<TrackedFrame> Take();
 
+  // Where the tags on bones are to be looked for at a time soon after the newest frame:
+  // ids and corners. None that turn away or leave the picture.
+  std::vector<TagDetection> Expected(double time_s) const;
+
  private:
   struct Worn {
     BodyTag tag;

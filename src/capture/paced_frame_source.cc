@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "src/capture/paced_frame_source.h"
+
+#include <chrono>
+#include <thread>
+
+namespace poselift {
+namespace {
+
+double Now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+std::optional<VideoFrame> PacedFrameSource::Next() {
+  int num_lost = 0;
+  for (;;) {
+    auto frame = source_->Next();
+    if (!frame) return std::nullopt;
+    if (start_s_ < 0.0) start_s_ = Now_s() - frame->time_s;
+    const double due_s = start_s_ + frame->time_s, step_s = frame->time_s - last_s_;
+    last_s_ = frame->time_s;
+    const double now_s = Now_s();
+    if (now_s - due_s > step_s && step_s > 0.0) {
+      ++num_lost;
+      continue;
+    }
+    if (now_s < due_s) std::this_thread::sleep_for(std::chrono::duration<double>(due_s - now_s));
+    frame->monotonic_s = due_s;
+    frame->num_lost += num_lost;
+    return frame;
+  }
+}
+
+}  // namespace poselift

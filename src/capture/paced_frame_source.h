@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <memory>
+
+#include "src/io/frame_source.h"
+
+namespace poselift {
+
+// A video as a camera would show it: no frame before its time, and none that is late by
+// more than a frame's time; those are counted as lost. Clocks are CLOCK_MONOTONIC.
+class PacedFrameSource : public FrameSource {
+ public:
+  explicit PacedFrameSource(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
+
+  cv::Size size_px() const override { return source_->size_px(); }
+  std::optional<VideoFrame> Next() override;
+  std::optional<double> Skip_s() override { return source_->Skip_s(); }
+
+ private:
+  std::unique_ptr<FrameSource> source_;
+  double start_s_ = -1.0;  // of the clock, at time 0
+  double last_s_ = 0.0;    // of the frame before
+};
+
+}  // namespace poselift

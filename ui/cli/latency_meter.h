@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace poselift::cli {
+
+// Quantiles of times, to 0.1 ms up to kLongest_s, in constant memory.
+class LatencyMeter {
+ public:
+  static constexpr double kLongest_s = 2.0;
+
+  void Add(double time_s);
+  // 0 to 1; 0 when nothing was added.
+  double Quantile_ms(double quantile) const;
+  int64_t count() const { return count_; }
+
+ private:
+  static constexpr double kStep_s = 1e-4;
+  std::array<int64_t, static_cast<std::size_t>(kLongest_s / kStep_s) + 1> counts_{};
+  int64_t count_ = 0;
+};
+
+}  // namespace poselift::cli

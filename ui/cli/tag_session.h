@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/tag_detector.h"
+#include "lift/tracking/tag_tracker.h"
+#include "lift/tracking/tracked_person.h"
+#include "src/io/frame_source.h"
+#include "src/poses.h"
+
+namespace poselift::cli {
+
+struct TagSessionOptions {
+  TagDetectorOptions detector;
+  TagTrackerOptions tracker;
+};
+
+// The flow from pictures to poses of a person who wears tags: detected, posed, tracked.
+class TagSession {
+ public:
+  struct Tracked {
+    FramePoses poses;                   // of this person alone
+    std::optional<SkeletonPose> pose;   // y up, the camera at the origin; nothing: not known
+    double monotonic_s = 0.0;           // when the frame was taken, NaN of files
+    int num_tags = 0;                   // of the person's, in the frame
+  };
+
+  // camera: level. lifter must outlive this. Throws InputError as TagDetector and
+  // TagTracker do.
+  TagSession(const BodyTags& tags, const Camera& camera, const PhotoLifter& lifter,
+             std::shared_ptr<const MotionCodebook> codebook, const TagSessionOptions& options);
+
+  // frame: with its grey picture.
+  void Add(const VideoFrame& frame);
+  void End() { tracker_.End(); }
+  std::optional<Tracked> Take();
+
+  const Skeleton& skeleton() const { return skeleton_; }
+
+ private:
+  struct Waiting {
+    double time_s, monotonic_s;
+    int num_tags;
+  };
+
+  BodyTags tags_;
+  Camera camera_;
+  Skeleton skeleton_;
+  TagDetector detector_;
+  TagTracker tracker_;
+  TrackedPerson person_;
+  std::deque<Waiting> waiting_;
+};
+
+// The tags in a picture, with the poses that explain their corners.
+std::vector<TagSighting> SightTags(const std::vector<TagDetection>& detections,
+                                   const BodyTags& tags, const Camera& camera);
+
+}  // namespace poselift::cli
