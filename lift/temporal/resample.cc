@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "src/input_error.h"
+#include "src/pose_between.h"
 
 namespace poselift {
 namespace {
@@ -17,32 +17,12 @@ namespace {
 constexpr double kDigitsOfFiles = 1e-3;
 constexpr double kWidestStep = 2.0;  // in frame times; wider is a gap
 
-std::vector<bool> AreRotations(const Skeleton& skeleton) {
-  std::vector<bool> are_rotations;
-  for (const Bone& bone : skeleton.bones)
-    for (const Dof& dof : bone.dofs) are_rotations.push_back(dof.IsRotation());
-  return are_rotations;
-}
-
-SkeletonPose Between(const SkeletonPose& a, const SkeletonPose& b, double part,
-                     const std::vector<bool>& are_rotations) {
-  SkeletonPose pose;
-  pose.root_in_world_m = (1.0 - part) * a.root_in_world_m + part * b.root_in_world_m;
-  pose.world_from_root = a.world_from_root.slerp(part, b.world_from_root);
-  pose.dofs = b.dofs - a.dofs;
-  for (Eigen::Index d = 0; d < pose.dofs.size(); ++d)
-    if (are_rotations[d]) pose.dofs[d] = std::remainder(pose.dofs[d], 2.0 * std::numbers::pi);
-  pose.dofs = a.dofs + part * pose.dofs;
-  return pose;
-}
-
 }  // namespace
 
 Motion Resample(const Motion& motion, double frame_time_s) {
   if (!(frame_time_s > 0.0) || !(motion.frame_time_s > 0.0))
     throw InputError(fmt::format("found a frame time of {} s (of {} s), wanted more than 0",
                                  frame_time_s, motion.frame_time_s));
-  const std::vector<bool> are_rotations = AreRotations(motion.skeleton);
   double step = frame_time_s / motion.frame_time_s;  // in old frames
   if (std::round(step) >= 1.0 && std::abs(step - std::round(step)) < kDigitsOfFiles)
     step = std::round(step);
@@ -52,9 +32,9 @@ Motion Resample(const Motion& motion, double frame_time_s) {
     const double place = static_cast<double>(i) * step;
     const auto before = static_cast<size_t>(place);
     const double part = place - static_cast<double>(before);
-    resampled.frames.push_back(
-        part > 0.0 ? Between(motion.frames[before], motion.frames[before + 1], part, are_rotations)
-                   : motion.frames[before]);
+    resampled.frames.push_back(part > 0.0 ? PoseBetween(motion.skeleton, motion.frames[before],
+                                                        motion.frames[before + 1], part)
+                                          : motion.frames[before]);
   }
   return resampled;
 }
@@ -67,7 +47,6 @@ Motion ResampleUneven(const Skeleton& skeleton, const std::vector<SkeletonPose>&
     throw std::invalid_argument("ResampleUneven: a time for each pose is wanted");
   Motion resampled{skeleton, frame_time_s, {}};
   if (poses.empty()) return resampled;
-  const std::vector<bool> are_rotations = AreRotations(skeleton);
   size_t before = 0;
   for (size_t k = 0;; ++k) {
     const double now_s = times_s.front() + static_cast<double>(k) * frame_time_s;
@@ -86,7 +65,7 @@ Motion ResampleUneven(const Skeleton& skeleton, const std::vector<SkeletonPose>&
       resampled.frames.push_back(UnknownPose(skeleton));
     else
       resampled.frames.push_back(
-          Between(poses[before], poses[after], since_s / step_s, are_rotations));
+          PoseBetween(skeleton, poses[before], poses[after], since_s / step_s));
   }
   return resampled;
 }

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+#include <span>
+
+#include "src/testing/ray_map.h"
+#include "src/testing/ray_samples.h"
+#include "src/testing/seen_body.h"
+
+namespace poselift::testing {
+
+struct Light {
+  Eigen::Vector3f towards_in_cam;  // unit length
+  float ambient = 0.0f;            // brightness of what is turned away, 0 ... 1
+};
+
+// 16 steps from a pixel's centre that a picture's edges are smoothed by: each column and
+// each row of a 16 x 16 grid has one, in no order that a movement could follow.
+inline constexpr int kStepsOfPixel = 16;
+
+// Paints a body over a background. Pixels with an edge or a tag are the mean of some rays,
+// others one ray.
+class BodyPainter {
+ public:
+  // background: CV_32FC1 or CV_32FC3, 0 ... 255. All must outlive the painter.
+  BodyPainter(const RayMap& rays, const Light& light, const cv::Mat& background)
+      : rays_(rays), light_(light), background_(background) {}
+
+  // Adds `share` of what the body changes of the background to *picture. The rays are
+  // those of every stride-th step, from the step `first` on.
+  void Add(const SeenBody& body, int first, int stride, float share, cv::Mat* picture) const;
+
+ private:
+  Eigen::Vector3f Color(const SeenBody& body, const RaySamples::Meeting& meeting,
+                        const Ray& ray) const;
+  void AddPixel(const SeenBody& body, int x, int y, std::span<const RaySamples::Meeting> meetings,
+                std::span<const Eigen::Vector2f> steps_px, float share, cv::Mat* picture) const;
+
+  const RayMap& rays_;
+  Light light_;
+  const cv::Mat& background_;
+};
+
+// What a grey picture shows of a colour.
+float GreyOf(const Eigen::Vector3f& bgr);
+
+}  // namespace poselift::testing
