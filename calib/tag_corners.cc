@@ -14,7 +14,7 @@ namespace {
 using Corners = Eigen::Matrix<double, 2, 4>;
 
 constexpr int kRounds = 4;
-constexpr int kPlaces = 32;  // along an edge
+constexpr int kPlaces = 48;  // along an edge
 constexpr int kSteps = 12;   // across it
 constexpr double kFarthest_px = 3.0;
 constexpr double kMinContrast = 5.0;  // grey levels
@@ -82,7 +82,7 @@ bool FitEdge(const Edge& edge, Line* line) {
   Eigen::Matrix<double, 2, kPlaces> points;
   for (int i = 0; i < kPlaces; ++i) {
     double inner = 0.0, outer = 0.0;
-    const int first = std::max(0, i - 3), last = std::min(kPlaces - 1, i + 3);
+    const int first = std::max(0, i - 4), last = std::min(kPlaces - 1, i + 4);
     for (int k = first; k <= last; ++k) {
       inner += edge[static_cast<size_t>(k)].inner / (last - first + 1);
       outer += edge[static_cast<size_t>(k)].outer / (last - first + 1);
