@@ -69,7 +69,7 @@ CornerErrors Measure(const std::string& name, double size_px, double noise,
   for (; errors.num_tags < 25; ++errors.num_tags) {
     const PlacedTag tag{errors.num_tags % family.num_ids(), RandomView(size_px, rng)};
     cv::Mat grey = Grey();
-    DrawTags(family, {tag}, &grey, 220.0, 30.0, 8);
+    DrawTags(family, {tag}, &grey, 220.0, 30.0, 64);
     testing::AddNoise(noise, rng, &grey);
     for (const TagDetection& found : detector.Detect(grey)) {
       EXPECT_EQ(found.id, tag.id);
@@ -240,7 +240,7 @@ TEST(TagDetectorTest, ThreadsInsideAndOutsideChangeNothing) {
     std::vector<PlacedTag> tags;
     for (int i = 0; i < 6; ++i)
       tags.push_back({6 * k + i, testing::PxFromTag({60.0 + 100 * i, 100.0 + 50 * i}, 45.0, i)});
-    DrawTags(family, tags, &pictures.back(), 220.0, 30.0, 4);
+    DrawTags(family, tags, &pictures.back(), 220.0, 30.0, 16);
     testing::AddNoise(3.0, &rng, &pictures.back());
   }
   const auto detect_all = [&](int threads) {

@@ -59,9 +59,9 @@ void DrawTags(const TagFamily& family, const std::vector<PlacedTag>& tags, cv::M
     for (int y = bounds.y; y < bounds.br().y; ++y)
       for (int x = bounds.x; x < bounds.br().x; ++x) {
         double sum = 0.0;
-        for (int sample = 0; sample < samples * samples; ++sample) {
-          const Eigen::Vector3d px(x - 0.5 + (sample % samples + 0.5) / samples,
-                                   y - 0.5 + (sample / samples + 0.5) / samples, 1.0);
+        for (int i = 0; i < samples; ++i) {
+          const Eigen::Vector3d px(x - 0.5 + (i + 0.5) / samples,
+                                   y - 0.5 + std::fmod(0.618034 * i, 1.0), 1.0);
           const Eigen::Vector2d cell =
               ((tag_from_px * px).hnormalized().array() / half_print + 1.0) * 0.5 * cells;
           const bool on_print = cell.minCoeff() >= 0.0 && cell.maxCoeff() < cells;
@@ -70,7 +70,7 @@ void DrawTags(const TagFamily& family, const std::vector<PlacedTag>& tags, cv::M
                      ? white
                      : black;
         }
-        grey->at<uchar>(y, x) = cv::saturate_cast<uchar>(sum / (samples * samples));
+        grey->at<uchar>(y, x) = cv::saturate_cast<uchar>(sum / samples);
       }
   }
 }

@@ -31,9 +31,10 @@ Eigen::Matrix3d PxFromTag(const Camera& camera, const Eigen::Isometry3d& cam_fro
 Eigen::Matrix3d PxFromTag(const Eigen::Vector2d& centre_px, double size_px, double turn_rad);
 
 // Draws tags into a grey picture as a lens and a sensor of square pixels would: each pixel is
-// the mean of samples x samples. white and black: grey levels of the print.
+// the mean of samples that differ in both coordinates, so that edges along the pixels are as
+// fine as others. white and black: grey levels of the print.
 void DrawTags(const TagFamily& family, const std::vector<PlacedTag>& tags, cv::Mat* grey,
-              double white = 220.0, double black = 30.0, int samples = 16);
+              double white = 220.0, double black = 30.0, int samples = 128);
 
 // Grey noise, normal, clipped to a byte.
 void AddNoise(double sigma, std::mt19937_64* rng, cv::Mat* grey);
