@@ -20,8 +20,8 @@ Skeleton PersonSkeleton(const Skeleton& standard, const BodyTags& tags) {
   for (const auto& [name, length_m] : tags.bone_lengths_m) {
     const auto joint = FindJoint(name);
     if (!joint || *joint == joint::kPelvis)
-      throw InputError(fmt::format(
-          "found a bone that ends at '{}', wanted one that ends at a joint", name));
+      throw InputError(
+          fmt::format("found a bone that ends at '{}', wanted one that ends at a joint", name));
     if (!(length_m >= kShortest_m && length_m <= kLongest_m))
       throw InputError(fmt::format("found a bone to {} of {} m, wanted {} to {} m", name, length_m,
                                    kShortest_m, kLongest_m));

@@ -22,7 +22,7 @@ constexpr int kMaxIterations = 30;
 constexpr double kFunctionTolerance = 1e-4;
 constexpr double kPull_per_rad = 0.02;    // as RefinementOptions::pull_per_rad
 constexpr double kOutlier = 7.0;          // standard deviations of all corners together
-constexpr double kLeastFacing = 0.2;  // cosine: a tag that is seen more from the side is lost
+constexpr double kLeastFacing = 0.2;      // cosine: a tag that is seen more from the side is lost
 constexpr double kLeanUnknown_rad = 0.7;  // of a tag that may lean either way
 
 Eigen::Matrix3d InverseRoot(const Eigen::Matrix3d& covariance) {

@@ -10,5 +10,6 @@ namespace poselift::cli {
 CLI::App* AddEvaluateLift(CLI::App* evaluate, Run* run);
 CLI::App* AddEvaluateMotion(CLI::App* evaluate, Run* run);
 CLI::App* AddEvaluateSequence(CLI::App* evaluate, Run* run);
+CLI::App* AddEvaluateTrack(CLI::App* evaluate, Run* run);
 
 }  // namespace poselift::cli

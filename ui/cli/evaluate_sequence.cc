@@ -15,20 +15,17 @@
 #include <utility>
 #include <vector>
 
-#include "lift/dictionary_file.h"
 #include "lift/eval/evaluate_sequence.h"
 #include "lift/eval/sequence_error.h"
 #include "lift/lift_sequence.h"
-#include "lift/temporal/motion_codebook_file.h"
 #include "lift/temporal/motion_database.h"
 #include "lift/temporal/resample.h"
-#include "lift/train/train_codebook.h"
-#include "lift/train/train_dictionary.h"
 #include "src/input_error.h"
 #include "src/io/amc.h"
 #include "src/io/asf.h"
 #include "src/io/atomic_file.h"
 #include "ui/cli/evaluate.h"
+#include "ui/cli/held_out_models.h"
 #include "ui/cli/progress.h"
 #include "ui/cli/sequence_methods.h"
 #include "ui/cli/sequence_report.h"
@@ -60,35 +57,6 @@ std::vector<MotionSource> FindSources(const Options& options) {
   for (const std::string& trial : options.trials)
     subjects.push_back(trial.substr(0, trial.find('_')));
   return FindMotions(options.mocap, {.subjects = subjects});
-}
-
-Dictionary LearnDictionary(const std::vector<MotionSource>& sources, const Options& options) {
-  if (!options.dictionary.empty()) return ReadDictionary(options.dictionary);
-  const auto chosen = ChooseTrials(sources, options.train_subjects, options.trials);
-  TrainingPoses poses;
-  {
-    Progress progress("read", static_cast<int64_t>(chosen.size()), "files");
-    poses = LoadPoses(chosen, {}, progress.Callback());
-  }
-  Progress progress("train", poses.poses_m.cols(), "frames");
-  TrainReport report;
-  return TrainDictionary(poses, /*mirrored=*/true, {}, progress.Callback(), &report);
-}
-
-// With mirror images.
-MotionCodebook LearnMotion(const std::vector<MotionSource>& sources, const Skeleton& standard,
-                           const Options& options) {
-  if (!options.motion_model.empty()) return WithMirrored(ReadMotionCodebook(options.motion_model));
-  const auto chosen = ChooseTrials(sources, options.train_subjects, options.trials);
-  MotionCodebook segments;
-  {
-    Progress progress("read", static_cast<int64_t>(chosen.size()), "files");
-    segments =
-        SegmentsOf(LoadMotionDatabase(chosen, standard, {.mirrored = false}, progress.Callback()));
-  }
-  Progress progress("train", segments.NumSegments(), "segments");
-  CodebookReport report;
-  return WithMirrored(TrainCodebook(segments, {}, progress.Callback(), &report));
 }
 
 std::vector<SequenceTrial> LoadTrials(const std::vector<MotionSource>& sources,
@@ -187,8 +155,10 @@ void WritePlots(const SequenceReport& report, const std::vector<SequenceTrial>& 
 
 int Evaluate(const Options& options) {
   const auto sources = FindSources(options);
-  const Dictionary dictionary = LearnDictionary(sources, options);
-  const MotionCodebook codebook = LearnMotion(sources, dictionary.skeleton, options);
+  const HeldOutModels models{options.dictionary, options.motion_model, options.train_subjects,
+                             options.trials};
+  const Dictionary dictionary = LearnDictionary(sources, models);
+  const MotionCodebook codebook = LearnMotion(sources, dictionary.skeleton, models);
   const auto trials = LoadTrials(sources, dictionary.skeleton, options);
   const auto methods = WantedMethods(dictionary, codebook, options);
   std::vector<SequenceEvaluation> rows;

@@ -34,8 +34,7 @@ TagSession::TagSession(const BodyTags& tags, const Camera& camera, const PhotoLi
       person_(skeleton_, camera, kLevelFromCam) {}
 
 void TagSession::Add(const VideoFrame& frame) {
-  const std::vector<TagSighting> seen =
-      SightTags(detector_.Detect(frame.grey), tags_, camera_);
+  const std::vector<TagSighting> seen = SightTags(detector_.Detect(frame.grey), tags_, camera_);
   tracker_.Add(frame.time_s, seen);
   waiting_.push_back({frame.time_s, frame.monotonic_s, static_cast<int>(seen.size())});
 }
@@ -80,8 +79,8 @@ std::vector<TagSighting> SightTags(const std::vector<TagDetection>& detections,
       // IPPE's square has y up.
       pose.cam_from_tag.linear() =
           rotation * Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal().toDenseMatrix();
-      pose.cam_from_tag.translation() =
-          Eigen::Vector3d(shifts[k].at<double>(0), shifts[k].at<double>(1), shifts[k].at<double>(2));
+      pose.cam_from_tag.translation() = Eigen::Vector3d(
+          shifts[k].at<double>(0), shifts[k].at<double>(1), shifts[k].at<double>(2));
       const double depth_sigma = 0.3 * pose.cam_from_tag.translation().z() *
                                  pose.cam_from_tag.translation().z() /
                                  (camera.fx_px * worn->size_m);

@@ -25,10 +25,10 @@ struct TagSessionOptions {
 class TagSession {
  public:
   struct Tracked {
-    FramePoses poses;                   // of this person alone
-    std::optional<SkeletonPose> pose;   // y up, the camera at the origin; nothing: not known
-    double monotonic_s = 0.0;           // when the frame was taken, NaN of files
-    int num_tags = 0;                   // of the person's, in the frame
+    FramePoses poses;                  // of this person alone
+    std::optional<SkeletonPose> pose;  // y up, the camera at the origin; nothing: not known
+    double monotonic_s = 0.0;          // when the frame was taken, NaN of files
+    int num_tags = 0;                  // of the person's, in the frame
   };
 
   // camera: level. lifter must outlive this. Throws InputError as TagDetector and

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "lift/temporal/resample.h"
+#include "src/input_error.h"
+#include "src/io/amc.h"
+#include "src/io/asf.h"
+#include "src/io/atomic_file.h"
+#include "src/level_camera.h"
+#include "ui/cli/evaluate.h"
+#include "ui/cli/frame_rate.h"
+#include "ui/cli/held_out_models.h"
+#include "ui/cli/progress.h"
+#include "ui/cli/track_experiment.h"
+#include "ui/cli/tracking_inputs.h"
+
+namespace poselift::cli {
+namespace {
+
+constexpr double kFrameTime_s = 1.0 / 30.0;
+
+// A trial that is tracked, and the movements its tags are fitted on.
+struct Test {
+  std::string action, trial;
+  std::vector<std::string> fitted_on;
+};
+
+// Nobody among the test subjects waves: subject 29 does, and is left out of the models.
+const std::vector<Test>& Tests() {
+  static const std::vector<Test> kTests = {
+      {"walking", "07_05", {"07_05"}},          {"walking", "16_15", {"16_21", "16_01"}},
+      {"walking", "16_22", {"16_21", "16_01"}}, {"waving", "29_15", {"29_09", "29_04"}},
+      {"waving", "29_09", {"29_15", "29_04"}},
+  };
+  return kTests;
+}
+
+struct Options {
+  std::string mocap, json;
+  HeldOutModels models{.train_subjects = {"01", "02", "03", "05", "14", "17"}};
+  size_t max_frames = 150;
+  TrackExperimentOptions experiment;
+};
+
+struct Row {
+  std::string method, action, trial;
+  TrackErrors errors;
+};
+
+Motion LoadTrial(const std::vector<MotionSource>& sources, const std::string& name,
+                 size_t max_frames) {
+  const auto chosen = ChooseTrials(sources, {name}, {});
+  if (chosen.empty()) throw InputError("--mocap: found no trial " + name);
+  Motion motion =
+      Resample(ReadAmc(chosen.front().amc, ReadAsfSkeleton(chosen.front().asf)), kFrameTime_s);
+  motion.frames.resize(std::min(motion.frames.size(), max_frames));
+  return motion;
+}
+
+// Each trial is rendered once.
+class Videos {
+ public:
+  Videos(const std::vector<MotionSource>& sources, const Options& options)
+      : sources_(sources), options_(options) {}
+
+  struct Video {
+    Motion motion;
+    BodyTags worn;
+    TaggedVideo tagged;
+  };
+  const Video& Of(const std::string& trial) {
+    const auto found = videos_.find(trial);
+    if (found != videos_.end()) return found->second;
+    Video video{.motion = LoadTrial(sources_, trial, options_.max_frames)};
+    video.worn = DressFor(video.motion.skeleton, options_.experiment);
+    Progress progress("render " + trial, static_cast<int64_t>(video.motion.frames.size()),
+                      "frames");
+    video.tagged = RenderTagged(video.motion, video.worn, options_.experiment, progress.Callback());
+    return videos_.emplace(trial, std::move(video)).first->second;
+  }
+
+ private:
+  const std::vector<MotionSource>& sources_;
+  const Options& options_;
+  std::map<std::string, Video> videos_;
+};
+
+std::vector<Row> RunTest(const Test& test, const PhotoLifter& lifter,
+                         const std::shared_ptr<const MotionCodebook>& codebook,
+                         const Options& options, Videos* videos) {
+  const Videos::Video& video = videos->Of(test.trial);
+  const BodyTags said = Misplaced(video.worn, options.experiment);
+  TrackingInputs guessed;
+  guessed.fov_deg = options.experiment.fov_deg;
+  const Camera& known = video.tagged.camera;
+  const Camera weak = CameraOf(guessed, {known.width_px, known.height_px});
+  std::vector<const TaggedVideo*> fit_videos;
+  for (const std::string& trial : test.fitted_on) fit_videos.push_back(&videos->Of(trial).tagged);
+
+  std::vector<Row> rows;
+  const auto add = [&](const std::string& method, const BodyTags& tags, const Camera& camera) {
+    rows.push_back({method, test.action, test.trial,
+                    TrackVideo(video.tagged, video.motion.skeleton, video.worn, tags, camera,
+                               lifter, codebook)});
+  };
+  add("camera known, tags as said", said, known);
+  for (const auto& [name, camera] :
+       {std::pair<std::string, const Camera&>{"camera known", known}, {"camera not known", weak}}) {
+    Progress progress("fit " + test.trial);
+    const TagFit fit = FitTags(SightFrames(fit_videos, said, camera), said, camera, kLevelFromCam,
+                               lifter, codebook, {}, progress.Callback());
+    if (!fit.is_usable) throw std::runtime_error(test.trial + ": " + fit.message);
+    add(name + ", tags fitted", fit.tags, camera);
+  }
+  return rows;
+}
+
+void Print(const std::vector<Row>& rows) {
+  fmt::print("{:30} {:8} {:6} {:>10} {:>8} {:>10} {:>10} {:>6} {:>8} {:>9}\n", "method", "action",
+             "trial", "visible mm", "all mm", "elbows deg", "knees deg", "flips", "unknown",
+             "detected");
+  for (const Row& row : rows)
+    fmt::print("{:30} {:8} {:6} {:10.1f} {:8.1f} {:10.1f} {:10.1f} {:6} {:8} {:7.1f} %\n",
+               row.method, row.action, row.trial, row.errors.visible_mm, row.errors.all_mm,
+               row.errors.elbows_deg, row.errors.knees_deg, row.errors.num_flips,
+               row.errors.num_unknown, 100.0 * row.errors.detected_share);
+}
+
+void WriteJson(const std::vector<Row>& rows, const Options& options) {
+  using Json = nlohmann::ordered_json;
+  Json json = {{"command", "evaluate track"},
+               {"data", std::filesystem::path(options.mocap).filename().string()},
+               {"split", {{"train", options.models.train_subjects}}},
+               {"seed", options.experiment.seed},
+               {"rows", Json::array()}};
+  for (const Row& row : rows)
+    json["rows"].push_back({{"method", row.method},
+                            {"action", row.action},
+                            {"trial", row.trial},
+                            {"frames", row.errors.num_frames},
+                            {"visible_mm", row.errors.visible_mm},
+                            {"all_mm", row.errors.all_mm},
+                            {"elbows_deg", row.errors.elbows_deg},
+                            {"knees_deg", row.errors.knees_deg},
+                            {"flips", row.errors.num_flips},
+                            {"not_known", row.errors.num_unknown},
+                            {"detected_share", row.errors.detected_share}});
+  WriteFileAtomically(options.json, json.dump(1) + "\n");
+}
+
+int Evaluate(const Options& options) {
+  std::vector<std::string> subjects = options.models.train_subjects;
+  for (const Test& test : Tests()) subjects.push_back(test.trial.substr(0, 2));
+  const auto sources = FindMotions(options.mocap, {.subjects = subjects});
+  const Dictionary dictionary = LearnDictionary(sources, options.models);
+  const auto codebook = std::make_shared<const MotionCodebook>(
+      LearnMotion(sources, dictionary.skeleton, options.models));
+  const PhotoLifter lifter(dictionary);
+  Videos videos(sources, options);
+  std::vector<Row> rows;
+  for (const Test& test : Tests())
+    for (Row& row : RunTest(test, lifter, codebook, options, &videos))
+      rows.push_back(std::move(row));
+  const TrackExperimentOptions& experiment = options.experiment;
+  fmt::print(
+      "rendered at {:g} m, 1280 x 720, tags of {:g} mm, exposure {:.1f} ms, noise {:g} grey "
+      "levels; "
+      "tags {:g} mm and {:.1f} degrees off what is said; seed {}\n",
+      experiment.distance_m, 1e3 * experiment.tag_size_m, 1e3 * experiment.exposure_s,
+      experiment.noise_grey_levels, 1e3 * experiment.misplaced_m,
+      experiment.misplaced_rad * 180.0 / 3.14159265, experiment.seed);
+  Print(rows);
+  if (!options.json.empty()) WriteJson(rows, options);
+  return kDone;
+}
+
+}  // namespace
+
+CLI::App* AddEvaluateTrack(CLI::App* app, Run* run) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app->add_subcommand("track", "Rendered people who wear tags, tracked: far from the truth?");
+  command->footer("Example:\n  poselift evaluate track --mocap mocap/ --json track.json");
+  command->add_option("--mocap", options->mocap, "Folder with .amc and .asf files")->required();
+  command->add_option("--dictionary", options->models.dictionary, "Use this one and learn none");
+  command->add_option("--motion-model", options->models.motion_model,
+                      "Use this motion codebook and learn none");
+  command->add_option("--json", options->json, "Write the numbers there too");
+  command->add_option("--max-frames", options->max_frames, "Of each trial, at 30 Hz")
+      ->capture_default_str();
+  TrackExperimentOptions& experiment = options->experiment;
+  command->add_option("--distance-m", experiment.distance_m, "Of the camera")
+      ->check(IsNumber(1.0, 10.0))
+      ->capture_default_str();
+  command->add_option("--tag-size-m", experiment.tag_size_m, "Of all tags")
+      ->check(IsNumber(0.01, 0.3))
+      ->capture_default_str();
+  command->add_option("--exposure-s", experiment.exposure_s, "Of each frame: motion blur")
+      ->check(IsNumber(0.0, 0.033))
+      ->capture_default_str();
+  command->add_option("--noise", experiment.noise_grey_levels, "Of the sensor, in grey levels")
+      ->check(IsNumber(0.0, 50.0))
+      ->capture_default_str();
+  command->add_option("--seed", experiment.seed, "Of noise and of misplaced tags")
+      ->capture_default_str();
+  *run = [options] { return Evaluate(*options); };
+  return command;
+}
+
+}  // namespace poselift::cli

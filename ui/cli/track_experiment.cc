@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "ui/cli/track_experiment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "calib/tag_detector.h"
+#include "lift/tracking/person_skeleton.h"
+#include "lift/tracking/tracked_person.h"
+#include "src/joint_angles.h"
+#include "src/level_camera.h"
+#include "src/testing/studio.h"
+#include "src/testing/tag_placement.h"
+#include "ui/cli/tag_session.h"
+
+namespace poselift::cli {
+namespace {
+
+constexpr double kFlip_m = 0.15;
+constexpr double kWellSeen_rad = std::numbers::pi / 3.0;
+constexpr double kWellSeenShare = 0.98;
+constexpr double kSightedGap_s = 5.0;  // between videos that follow each other
+
+bool IsWellSeen(const testing::TagTruth& tag) {
+  return tag.visible_share > kWellSeenShare && tag.facing_rad < kWellSeen_rad;
+}
+
+// The joints at both ends of the bones whose tags are detected.
+std::array<bool, kNumJoints> SeenJoints(const BodyTags& worn,
+                                        const std::vector<TagDetection>& detections) {
+  std::array<bool, kNumJoints> seen{};
+  for (const TagDetection& detection : detections) {
+    const BodyTag* tag = worn.Find(detection.id);
+    if (!tag || !tag->on_bone) continue;
+    for (int j = 0; j < kNumJoints; ++j) {
+      const JointInfo& joint = Joints()[static_cast<size_t>(j)];
+      if (joint.cmu_bone != tag->on_bone->bone) continue;
+      seen[static_cast<size_t>(j)] = true;
+      if (joint.parent >= 0) seen[static_cast<size_t>(joint.parent)] = true;
+    }
+  }
+  return seen;
+}
+
+// Sums over frames, then TrackErrors.
+class ErrorSums {
+ public:
+  explicit ErrorSums(const Skeleton& captured) : reader_(captured) {}
+
+  void Add(const PersonPose& person, const testing::FrameTruth& truth,
+           const std::array<bool, kNumJoints>& seen) {
+    ++errors_.num_frames;
+    if (!person.joints_in_cam_m.allFinite()) {
+      ++errors_.num_unknown;
+      return;
+    }
+    const Pose3 true_m =
+        truth.joints_in_cam_m.colwise() - truth.joints_in_cam_m.col(joint::kPelvis);
+    const Eigen::RowVectorXd off_m = (person.joints_in_cam_m - true_m).colwise().norm();
+    for (int j = 0; j < kNumJoints; ++j) {
+      all_m_ += off_m[j];
+      if (!seen[static_cast<size_t>(j)]) continue;
+      visible_m_ += off_m[j];
+      ++num_visible_;
+    }
+    const auto flipped = [&](int j) { return seen[static_cast<size_t>(j)] && off_m[j] > kFlip_m; };
+    errors_.num_flips += flipped(joint::kLeftKnee) || flipped(joint::kRightKnee) ||
+                         flipped(joint::kLeftElbow) || flipped(joint::kRightElbow);
+    const Eigen::VectorXd true_deg = reader_.ReadDeg(truth.pose);
+    for (Eigen::Index a = 0; a < true_deg.size(); ++a) {
+      const auto& [name, value] = person.angles_deg[static_cast<size_t>(a)];
+      const double off_deg = std::remainder(value - true_deg[a], 360.0);
+      if (name.ends_with("elbow.flexion")) elbows_deg2_ += 0.5 * off_deg * off_deg;
+      if (name.ends_with("knee.flexion")) knees_deg2_ += 0.5 * off_deg * off_deg;
+    }
+  }
+
+  TrackErrors Errors() const {
+    TrackErrors errors = errors_;
+    const int known = errors.num_frames - errors.num_unknown;
+    if (known == 0) return errors;
+    errors.all_mm = 1e3 * all_m_ / (known * kNumJoints);
+    if (num_visible_ > 0) errors.visible_mm = 1e3 * visible_m_ / num_visible_;
+    errors.elbows_deg = std::sqrt(elbows_deg2_ / known);
+    errors.knees_deg = std::sqrt(knees_deg2_ / known);
+    return errors;
+  }
+
+ private:
+  JointAngleReader reader_;
+  TrackErrors errors_;
+  double all_m_ = 0.0, visible_m_ = 0.0, elbows_deg2_ = 0.0, knees_deg2_ = 0.0;
+  int num_visible_ = 0;
+};
+
+double DetectedShare(const TaggedVideo& video) {
+  int wanted = 0, found = 0;
+  for (size_t t = 0; t < video.truth.size(); ++t)
+    for (const testing::TagTruth& tag : video.truth[t].tags) {
+      if (!IsWellSeen(tag)) continue;
+      ++wanted;
+      found += std::any_of(video.detections[t].begin(), video.detections[t].end(),
+                           [&](const TagDetection& detection) { return detection.id == tag.id; });
+    }
+  return wanted > 0 ? static_cast<double>(found) / wanted : 0.0;
+}
+
+}  // namespace
+
+BodyTags DressFor(const Skeleton& skeleton, const TrackExperimentOptions& options) {
+  return testing::DefaultTagPlacement(skeleton, {.size_m = options.tag_size_m});
+}
+
+BodyTags Misplaced(const BodyTags& worn, const TrackExperimentOptions& options) {
+  std::mt19937_64 rng(options.seed);
+  std::normal_distribution<double> normal;
+  const auto draw = [&](double sigma) {
+    return Eigen::Vector3d(sigma * normal(rng), sigma * normal(rng), sigma * normal(rng));
+  };
+  BodyTags said = worn;
+  for (BodyTag& tag : said.tags) {
+    tag.on_bone->bone_from_tag.translation() += draw(options.misplaced_m);
+    const Eigen::Vector3d turn = draw(options.misplaced_rad);
+    tag.on_bone->bone_from_tag.linear() *=
+        Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+    tag.on_bone->sigma_m = options.misplaced_m;
+    tag.on_bone->sigma_rad = options.misplaced_rad;
+  }
+  return said;
+}
+
+TaggedVideo RenderTagged(const Motion& motion, const BodyTags& worn,
+                         const TrackExperimentOptions& options, const ProgressFn& progress) {
+  const TagFamily family(worn.family);
+  const Motion walk = testing::OnTheSpot(motion);
+  const testing::PlacedCamera placed = testing::CameraBefore(walk, options.distance_m);
+  const testing::BodyRenderer renderer(
+      walk.skeleton, worn,
+      [&](int id) {
+        return testing::TagPrint{family.Image(id), family.cells_of_size()};
+      },
+      placed.camera, placed.cam_from_world,
+      {.exposure_s = options.exposure_s,
+       .noise_grey_levels = options.noise_grey_levels,
+       .seed = options.seed});
+  TagDetectorOptions detecting{.threads = 2};
+  for (const BodyTag& tag : worn.tags) detecting.known_ids.push_back(tag.id);
+  TagDetector detector(family, detecting);
+  TaggedVideo video{.camera = placed.camera, .frame_time_s = walk.frame_time_s};
+  const auto poses = testing::PosesOver(walk);
+  for (size_t t = 0; t < walk.frames.size(); ++t) {
+    const auto frame = renderer.Render(poses, static_cast<double>(t) * walk.frame_time_s);
+    video.detections.push_back(detector.Detect(frame.picture));
+    video.truth.push_back(frame.truth);
+    if (progress) progress(static_cast<double>(t + 1) / static_cast<double>(walk.frames.size()));
+  }
+  return video;
+}
+
+std::vector<SightedFrame> SightFrames(const std::vector<const TaggedVideo*>& videos,
+                                      const BodyTags& tags, const Camera& camera) {
+  std::vector<SightedFrame> frames;
+  double start_s = 0.0;
+  for (const TaggedVideo* video : videos) {
+    for (size_t t = 0; t < video->detections.size(); ++t)
+      frames.push_back({start_s + static_cast<double>(t) * video->frame_time_s,
+                        SightTags(video->detections[t], tags, camera)});
+    if (!frames.empty()) start_s = frames.back().time_s + kSightedGap_s;
+  }
+  return frames;
+}
+
+TrackErrors TrackVideo(const TaggedVideo& video, const Skeleton& captured, const BodyTags& worn,
+                       const BodyTags& tags, const Camera& camera, const PhotoLifter& lifter,
+                       const std::shared_ptr<const MotionCodebook>& codebook) {
+  const Skeleton skeleton = PersonSkeleton(lifter.dictionary().skeleton, tags);
+  TagTracker tracker(skeleton, tags, camera, kLevelFromCam, lifter, codebook);
+  TrackedPerson person(skeleton, camera, kLevelFromCam);
+  ErrorSums sums(captured);
+  for (const SightedFrame& frame : SightFrames({&video}, tags, camera)) {
+    tracker.Add(frame.time_s, frame.tags);
+    const auto tracked = tracker.Take();  // without latency there is one each time
+    const size_t t = static_cast<size_t>(std::lround(frame.time_s / video.frame_time_s));
+    sums.Add(person.Convert(*tracked), video.truth[t], SeenJoints(worn, video.detections[t]));
+  }
+  TrackErrors errors = sums.Errors();
+  errors.detected_share = DetectedShare(video);
+  return errors;
+}
+
+}  // namespace poselift::cli

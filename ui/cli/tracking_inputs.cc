@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "ui/cli/tracking_inputs.h"
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Option.hpp>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "src/capture/open_frame_source.h"
+#include "src/capture/paced_frame_source.h"
+#include "src/input_error.h"
+#include "src/io/camera_yaml.h"
+#include "ui/cli/frame_rate.h"
+
+namespace poselift::cli {
+namespace {
+
+cv::Size ParseSize(const std::string& text) {
+  cv::Size size;
+  const char* const end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+    const auto height = std::from_chars(width.ptr + 1, end, size.height);
+    if (height.ec == std::errc() && height.ptr == end && size.width > 0 && size.height > 0)
+      return size;
+  }
+  throw InputError(fmt::format("found --size {}, wanted WIDTHxHEIGHT, such as 1280x720", text));
+}
+
+}  // namespace
+
+void AddTrackingInputs(CLI::App* command, TrackingInputs* inputs) {
+  command
+      ->add_option("INPUT,--device", inputs->input,
+                   "A camera (/dev/video0, or 0), a video, or a folder of pictures")
+      ->required();
+  command->add_option("--camera", inputs->camera,
+                      "Calibrated camera (see poselift calibrate); without one --fov-deg is taken");
+  command
+      ->add_option("--fov-deg", inputs->fov_deg,
+                   "How wide a camera sees that nobody calibrated, horizontally, in degrees")
+      ->check(IsNumber(1.0, 170.0))
+      ->capture_default_str();
+  command->add_option("--size", inputs->size, "Camera: size of the pictures to ask for")
+      ->capture_default_str();
+  command->add_option("--rate", inputs->rate_hz, "Camera: pictures a second to ask for")
+      ->check(IsFrameRate())
+      ->capture_default_str();
+  command->add_option("--control", inputs->controls,
+                      "Camera: NAME=VALUE, as often as wanted, such as exposure_time_absolute=50");
+  command->add_option("--fps", inputs->folder_rate_hz, "Folder: pictures a second")
+      ->check(IsFrameRate())
+      ->capture_default_str();
+  command->add_flag("--realtime", inputs->realtime,
+                    "Video: as a camera would give it, late frames lost");
+}
+
+std::unique_ptr<FrameSource> OpenSource(const TrackingInputs& inputs) {
+  FrameSourceOptions options{.pictures = Pictures::kGrey, .folder_rate_hz = inputs.folder_rate_hz};
+  options.live.camera.wanted = {0, ParseSize(inputs.size), inputs.rate_hz};
+  options.live.keep_encoded = inputs.keep_encoded;
+  for (const std::string& control : inputs.controls)
+    options.live.camera.controls.push_back(ParseControl(control));
+  auto source = OpenFrameSource(inputs.input, options);
+  if (inputs.realtime && KindOfSource(inputs.input) != SourceKind::kCamera)
+    source = std::make_unique<PacedFrameSource>(std::move(source));
+  return source;
+}
+
+Camera CameraOf(const TrackingInputs& inputs, cv::Size size_px) {
+  if (inputs.camera.empty()) {
+    const double half_rad = inputs.fov_deg * std::numbers::pi / 360.0;
+    const double focal_px = 0.5 * size_px.width / std::tan(half_rad);
+    return {size_px.width,
+            size_px.height,
+            focal_px,
+            focal_px,
+            0.5 * size_px.width - 0.5,
+            0.5 * size_px.height - 0.5};
+  }
+  Camera camera = ReadCameraYaml(inputs.camera);
+  const double scale = static_cast<double>(size_px.width) / camera.width_px;
+  if (std::abs(scale * camera.height_px - size_px.height) > 1.0)
+    throw InputError(inputs.camera,
+                     fmt::format("found a camera of {} x {} pixels and pictures of {} x {}, wanted "
+                                 "the same shape: calibrate at the size that is used",
+                                 camera.width_px, camera.height_px, size_px.width, size_px.height));
+  camera.fx_px *= scale;
+  camera.fy_px *= scale;
+  camera.cx_px = scale * (camera.cx_px + 0.5) - 0.5;
+  camera.cy_px = scale * (camera.cy_px + 0.5) - 0.5;
+  camera.width_px = size_px.width;
+  camera.height_px = size_px.height;
+  return camera;
+}
+
+}  // namespace poselift::cli

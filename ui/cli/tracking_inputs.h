@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <memory>
+#include <opencv2/core/types.hpp>
+#include <string>
+#include <vector>
+
+#include "src/camera.h"
+#include "src/io/frame_source.h"
+
+namespace CLI {
+class App;
+}
+
+namespace poselift::cli {
+
+// What commands that look at tags take: pictures from somewhere, and the camera they come from.
+struct TrackingInputs {
+  std::string input;
+  std::string camera;
+  double fov_deg = 60.0;  // horizontal, of a camera that nobody calibrated
+  std::string size = "1280x720";
+  double rate_hz = 30.0;
+  std::vector<std::string> controls;
+  double folder_rate_hz = 30.0;
+  bool realtime = false;
+  bool keep_encoded = false;
+};
+
+void AddTrackingInputs(CLI::App* command, TrackingInputs* inputs);
+
+// Grey pictures. Throws InputError for a source that cannot be opened.
+std::unique_ptr<FrameSource> OpenSource(const TrackingInputs& inputs);
+
+// The camera file, at the size of the pictures; without one a camera of fov_deg without
+// distortion. Throws InputError for a camera of another shape than the pictures'.
+Camera CameraOf(const TrackingInputs& inputs, cv::Size size_px);
+
+}  // namespace poselift::cli
