@@ -27,6 +27,14 @@ struct PoseAlternative {
   double reprojection_rms_px = kUnknown;
 };
 
+// A tag that the person wears, as the frame shows it.
+struct PoseTag {
+  int id = 0;
+  double error_px = kUnknown;  // of its corners to the pose, RMS
+  bool believed = true;        // else it does not fit, and hardly counted
+  bool ambiguous = false;      // the picture alone did not tell how it leans
+};
+
 struct PersonPose {
   int id = 0;
   // "ok", "filled" (guessed across a gap), or what went wrong in a word or two.
@@ -50,6 +58,7 @@ struct PersonPose {
 
   double reprojection_rms_px = kUnknown;
   std::vector<std::pair<std::string, double>> per_joint_px;  // landmark, its reprojection error
+  std::vector<PoseTag> tags;                                 // where the pose comes from tags
   std::vector<std::pair<int, double>> atoms;                 // dictionary index, coefficient
   std::vector<PoseAlternative> alternatives;
 };

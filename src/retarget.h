@@ -2,9 +2,11 @@
 // Copyright (c) 2026 the poselift authors
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
+#include "src/forward_kinematics.h"
 #include "src/motion.h"
 #include "src/skeleton.h"
 
@@ -41,5 +43,30 @@ std::vector<int> MatchBonesByName(const Skeleton& source, const Skeleton& target
 Motion RebaseMotion(const Motion& source, const Skeleton& target,
                     const std::vector<int>& source_of_target, RebaseReport* report = nullptr);
 Motion RebaseMotion(const Motion& source, const Skeleton& target, RebaseReport* report = nullptr);
+
+// The same, pose after pose.
+class Rebaser {
+ public:
+  Rebaser(const Skeleton& source, const Skeleton& target, std::vector<int> source_of_target);
+
+  // On the target, angles without jumps to those of the pose before. Valid until the next call.
+  const SkeletonPose& Rebase(const SkeletonPose& pose);
+
+  const RebaseReport& report() const { return report_; }  // of all poses so far
+
+ private:
+  void PoseBone(size_t b, const SkeletonPose& source_pose, double* values);
+  void ShiftBone(size_t b, const SkeletonPose& source_pose, double* values);
+
+  const Skeleton source_, target_;
+  const std::vector<int> source_of_target_;
+  const std::vector<int> source_starts_;
+  RebaseReport report_;
+  std::vector<Eigen::Matrix3d> target_from_source_;
+  int num_poses_ = 0;
+  BoneFrames source_frames_;
+  std::vector<Eigen::Matrix3d> world_from_target_;
+  SkeletonPose pose_;
+};
 
 }  // namespace poselift

@@ -2,11 +2,16 @@
 // Copyright (c) 2026 the poselift authors
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 
 #include "src/motion.h"
 
 namespace poselift {
+
+class BvhText;
+class GrowingFile;
 
 // Biovision hierarchy (.bvh): joints with offsets and channels, then one line of
 // channel values a frame. For channels Z X Y the local rotation is Rz Rx Ry.
@@ -35,5 +40,26 @@ struct BvhWriteOptions {
 // jumps. Throws InputError for a NaN or a frame time that is not positive.
 void WriteBvh(const Motion& motion, const std::filesystem::path& path,
               const BvhWriteOptions& options = {});
+
+// The same file, pose after pose, whole at every moment (growing_file.h): the number of its
+// frames in the header has a fixed width, padded with spaces, and changes with each line.
+class GrowingBvh {
+ public:
+  // Throws InputError as above.
+  GrowingBvh(const std::filesystem::path& path, const Skeleton& skeleton, double frame_time_s,
+             const BvhWriteOptions& options = {});
+  ~GrowingBvh();
+
+  // Throws InputError when it cannot be written (the file is as before), std::invalid_argument
+  // for an unknown pose (motion.h).
+  void Add(const SkeletonPose& pose);
+  void Close();
+
+ private:
+  std::unique_ptr<BvhText> text_;
+  size_t count_place_ = 0;
+  std::unique_ptr<GrowingFile> file_;
+  int64_t num_frames_ = 0;
+};
 
 }  // namespace poselift

@@ -2,13 +2,17 @@
 // Copyright (c) 2026 the poselift authors
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "src/dof_angles.h"
 #include "src/input_error.h"
 #include "src/io/atomic_file.h"
 #include "src/io/bvh.h"
 #include "src/io/bvh_rig.h"
+#include "src/io/growing_file.h"
 #include "src/io/number_text.h"
 #include "src/io/plain_names.h"
 #include "src/retarget.h"
@@ -21,13 +25,15 @@ constexpr int kAngleDecimals = 6;
 constexpr int kFrameTimeDecimals = 10;
 const std::vector<Dof> kRootRotations = {{Dof::Kind::kRy}, {Dof::Kind::kRx}, {Dof::Kind::kRz}};
 
-// Writes a motion that is on its rig.
-class BvhWriter {
+}  // namespace
+
+// The text of a BVH, piece by piece.
+class BvhText {
  public:
-  BvhWriter(const Motion& motion, double metres_per_unit)
-      : motion_(motion),
-        bones_(motion.skeleton.bones),
-        names_(PlainNames(motion.skeleton)),
+  BvhText(const Skeleton& skeleton, double metres_per_unit)
+      : rig_(MakeBvhRig(skeleton)),
+        rebaser_(skeleton, rig_.skeleton, rig_.source_bone),
+        names_(PlainNames(rig_.skeleton)),
         metres_per_unit_(metres_per_unit),
         // At least 0.1 micrometre, so that ten bones in a row stay within one.
         length_decimals_(std::max(6, 7 + static_cast<int>(std::ceil(std::log10(metres_per_unit))))),
@@ -35,15 +41,37 @@ class BvhWriter {
     for (size_t b = 1; b < bones_.size(); ++b) children_[bones_[b].parent].push_back(b);
   }
 
-  std::string Write() {
-    text_ = "HIERARCHY\n";
+  // All before the frames. Returns where their number stands.
+  size_t AppendHead(const std::string& num_frames, double frame_time_s) {
+    text_ += "HIERARCHY\n";
     AppendHierarchy();
-    text_ += "MOTION\nFrames: " + std::to_string(motion_.frames.size()) + "\nFrame Time: ";
-    AppendFixed(motion_.frame_time_s, kFrameTimeDecimals, &text_);
+    text_ += "MOTION\nFrames: ";
+    const size_t place = text_.size();
+    text_ += num_frames + "\nFrame Time: ";
+    AppendFixed(frame_time_s, kFrameTimeDecimals, &text_);
     text_ += '\n';
-    for (const SkeletonPose& pose : motion_.frames) AppendFrame(pose);
-    return std::move(text_);
+    return place;
   }
+
+  void AppendFrame(const SkeletonPose& pose) {
+    const SkeletonPose& on_rig = rebaser_.Rebase(pose);
+    for (const size_t b : order_) {
+      if (b == 0) {
+        for (const double value_m : on_rig.root_in_world_m) AppendLength(value_m);
+        FitDofAngles(on_rig.world_from_root.toRotationMatrix(), kRootRotations, root_rad_);
+        AppendRotations(root_rad_);
+        continue;
+      }
+      const double* dofs = on_rig.dofs.data() + dof_starts_[b];
+      if (HasShifts(bones_[b]))
+        for (int axis = 0; axis < 3; ++axis) AppendLength(bones_[b].offset_m[axis] + *dofs++);
+      AppendRotations(dofs);
+    }
+    text_ += '\n';
+  }
+
+  // What was appended since the last Take.
+  std::string Take() { return std::exchange(text_, {}); }
 
  private:
   // Depth first, as the values of a frame come; not recursive, for chains of
@@ -103,24 +131,8 @@ class BvhWriter {
     if (!std::isfinite(value) || std::abs(value) > 1e9)
       throw InputError("found a value that is no length or angle (" + std::to_string(value) +
                        ") in the motion, wrote no BVH");
-    if (text_.back() != '\n') text_ += ' ';
+    if (!text_.empty() && text_.back() != '\n') text_ += ' ';
     AppendFixed(value, decimals, &text_);
-  }
-
-  void AppendFrame(const SkeletonPose& pose) {
-    for (const size_t b : order_) {
-      if (b == 0) {
-        for (const double value_m : pose.root_in_world_m) AppendLength(value_m);
-        FitDofAngles(pose.world_from_root.toRotationMatrix(), kRootRotations, root_rad_);
-        AppendRotations(root_rad_);
-        continue;
-      }
-      const double* dofs = pose.dofs.data() + dof_starts_[b];
-      if (HasShifts(bones_[b]))
-        for (int axis = 0; axis < 3; ++axis) AppendLength(bones_[b].offset_m[axis] + *dofs++);
-      AppendRotations(dofs);
-    }
-    text_ += '\n';
   }
 
   // ry rx rz, written the outermost first: Z X Y.
@@ -128,27 +140,64 @@ class BvhWriter {
     for (const int i : {2, 1, 0}) Append(angles_rad[i] * kDegFromRad, kAngleDecimals);
   }
 
-  const Motion& motion_;
-  const std::vector<Bone>& bones_;
+  const BvhRig rig_;
+  const std::vector<Bone>& bones_ = rig_.skeleton.bones;
+  Rebaser rebaser_;
   const std::vector<std::string> names_;
   const double metres_per_unit_;
   const int length_decimals_;
-  const std::vector<int> dof_starts_ = motion_.skeleton.DofStarts();
+  const std::vector<int> dof_starts_ = rig_.skeleton.DofStarts();
   std::vector<std::vector<size_t>> children_;
   std::vector<size_t> order_;
   double root_rad_[3] = {};  // of the frame before
   std::string text_;
 };
 
+namespace {
+
+void CheckFrameTime(double frame_time_s, const std::filesystem::path& path) {
+  if (!(frame_time_s > 0.0) || !std::isfinite(frame_time_s))
+    throw InputError(path.string(), "found a frame time that is not positive, wrote no BVH");
+}
+
+// The number of frames, for as many as there may come.
+std::string CountField(int64_t num_frames) {
+  constexpr size_t kWidth = 10;
+  std::string field = std::to_string(num_frames);
+  field.resize(kWidth, ' ');
+  return field;
+}
+
 }  // namespace
 
 void WriteBvh(const Motion& motion, const std::filesystem::path& path,
               const BvhWriteOptions& options) {
-  if (!(motion.frame_time_s > 0.0) || !std::isfinite(motion.frame_time_s))
-    throw InputError(path.string(), "found a frame time that is not positive, wrote no BVH");
-  const BvhRig rig = MakeBvhRig(motion.skeleton);
-  const Motion on_rig = RebaseMotion(motion, rig.skeleton, rig.source_bone);
-  WriteFileAtomically(path, BvhWriter(on_rig, options.metres_per_unit).Write());
+  CheckFrameTime(motion.frame_time_s, path);
+  BvhText text(motion.skeleton, options.metres_per_unit);
+  text.AppendHead(std::to_string(motion.frames.size()), motion.frame_time_s);
+  for (const SkeletonPose& pose : motion.frames) text.AppendFrame(pose);
+  WriteFileAtomically(path, text.Take());
 }
+
+GrowingBvh::GrowingBvh(const std::filesystem::path& path, const Skeleton& skeleton,
+                       double frame_time_s, const BvhWriteOptions& options) {
+  CheckFrameTime(frame_time_s, path);
+  text_ = std::make_unique<BvhText>(skeleton, options.metres_per_unit);
+  count_place_ = text_->AppendHead(CountField(0), frame_time_s);
+  file_ = std::make_unique<GrowingFile>(path, text_->Take(), "");
+}
+
+GrowingBvh::~GrowingBvh() = default;
+
+void GrowingBvh::Add(const SkeletonPose& pose) {
+  if (!IsKnown(pose)) throw std::invalid_argument("GrowingBvh: a pose of which nothing is known");
+  text_->Take();  // what a refused pose left
+  text_->AppendFrame(pose);
+  file_->Overwrite(count_place_, CountField(num_frames_ + 1));
+  file_->Append(text_->Take());
+  ++num_frames_;
+}
+
+void GrowingBvh::Close() { file_->Close(); }
 
 }  // namespace poselift

@@ -185,6 +185,11 @@ int JsonValue::Integer(int lower, int upper) const {
   return static_cast<int>(number_);
 }
 
+bool JsonValue::Boolean() const {
+  Expect(Kind::kBoolean, "true or false");
+  return number_ != 0.0;
+}
+
 const std::string& JsonValue::String() const {
   Expect(Kind::kString, "a string");
   return box_->text;

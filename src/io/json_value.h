@@ -32,6 +32,7 @@ class JsonValue {
                 double upper = std::numeric_limits<double>::max()) const;
   int Integer(int lower, int upper) const;
   const std::string& String() const;
+  bool Boolean() const;
 
   const std::vector<JsonValue>& Items() const;    // of an array
   const std::vector<JsonValue>& Members() const;  // of an object, in the file's order

@@ -43,6 +43,10 @@ class ObjectText {
     Key(key);
     AppendJsonNumber(value, decimals, out_);
   }
+  void Boolean(std::string_view key, bool value) {
+    Key(key);
+    *out_ += value ? "true" : "false";
+  }
   template <typename Vector>
   void Numbers(std::string_view key, const Vector& values, int decimals) {
     if (!values.allFinite()) return;
@@ -86,6 +90,20 @@ void AppendAtoms(const std::vector<std::pair<int, double>>& atoms, std::string* 
   *out += ']';
 }
 
+void AppendTags(const std::vector<PoseTag>& tags, std::string* out) {
+  *out += '[';
+  for (size_t i = 0; i < tags.size(); ++i) {
+    if (i > 0) *out += ", ";
+    ObjectText object(out);
+    object.Number("id", tags[i].id, 0);
+    object.Number("error_px", tags[i].error_px, kPixelDecimals);
+    object.Boolean("believed", tags[i].believed);
+    object.Boolean("ambiguous", tags[i].ambiguous);
+    object.Close();
+  }
+  *out += ']';
+}
+
 void AppendAlternatives(const std::vector<PoseAlternative>& alternatives, std::string* out) {
   *out += '[';
   for (size_t i = 0; i < alternatives.size(); ++i) {
@@ -122,6 +140,10 @@ void AppendPerson(const PersonPose& person, std::string* out) {
   object.Number("reprojection_rms_px", person.reprojection_rms_px, kPixelDecimals);
   object.Key("per_joint_px");
   AppendNamed(person.per_joint_px, kPixelDecimals, out);
+  if (!person.tags.empty()) {
+    object.Key("tags");
+    AppendTags(person.tags, out);
+  }
   object.Key("atoms");
   AppendAtoms(person.atoms, out);
   object.Key("alternatives");
@@ -224,6 +246,12 @@ PoseAlternative ReadAlternative(const JsonValue& json) {
           ReadNumberOrUnknown(json, "reprojection_rms_px")};
 }
 
+PoseTag ReadTag(const JsonValue& json) {
+  return {json.At("id").Integer(0, std::numeric_limits<int>::max()),
+          ReadNumberOrUnknown(json, "error_px"), json.At("believed").Boolean(),
+          json.At("ambiguous").Boolean()};
+}
+
 PersonPose ReadPerson(const JsonValue& json) {
   constexpr int kLargestInt = std::numeric_limits<int>::max();
   PersonPose person;
@@ -243,6 +271,8 @@ PersonPose ReadPerson(const JsonValue& json) {
     person.angles_sigma_deg = ReadNamed(*sigmas);
   person.reprojection_rms_px = ReadNumberOrUnknown(json, "reprojection_rms_px");
   if (const JsonValue* errors = json.Find("per_joint_px")) person.per_joint_px = ReadNamed(*errors);
+  if (const JsonValue* tags = json.Find("tags"))
+    for (const JsonValue& tag : tags->Items()) person.tags.push_back(ReadTag(tag));
   if (const JsonValue* atoms = json.Find("atoms"))
     for (const JsonValue& atom : atoms->Items()) {
       if (atom.Items().size() != 2) throw atom.Unwanted("[index, coefficient]");
@@ -264,6 +294,25 @@ FramePoses ReadFrame(const JsonValue& json) {
   return frame;
 }
 
+// The file is the head, frames with separators, the tail.
+constexpr std::string_view kTail = "]}\n";
+
+std::string Head(const std::vector<PersonBones>& bodies) {
+  std::string text = fmt::format(
+      "{{\"format\": \"{}\", \"version\": 1, \"units\": \"m\", \"axes\": \"{}\",\n"
+      " \"joint_names\": [",
+      kFormat, kAxes);
+  for (int j = 0; j < kNumJoints; ++j)
+    text += fmt::format("{}\"{}\"", j > 0 ? ", " : "", Joints()[j].name);
+  if (!bodies.empty()) AppendBodies(bodies, &text);
+  return text + "],\n \"frames\": [";
+}
+
+void AppendFrameOfList(const FramePoses& frame, bool is_first, std::string* text) {
+  *text += is_first ? "\n  " : ",\n  ";
+  AppendFrame(frame, "\n    ", text);
+}
+
 }  // namespace
 
 std::string FramePosesLine(const FramePoses& frame) {
@@ -277,19 +326,21 @@ FramePoses ReadFramePosesLine(std::string_view text, const std::string& file, in
 }
 
 std::string PosesJson(const Poses& poses) {
-  std::string text = fmt::format(
-      "{{\"format\": \"{}\", \"version\": 1, \"units\": \"m\", \"axes\": \"{}\",\n"
-      " \"joint_names\": [",
-      kFormat, kAxes);
-  for (int j = 0; j < kNumJoints; ++j)
-    text += fmt::format("{}\"{}\"", j > 0 ? ", " : "", Joints()[j].name);
-  if (!poses.bodies.empty()) AppendBodies(poses.bodies, &text);
-  text += "],\n \"frames\": [";
-  for (size_t i = 0; i < poses.frames.size(); ++i) {
-    text += i > 0 ? ",\n  " : "\n  ";
-    AppendFrame(poses.frames[i], "\n    ", &text);
-  }
-  return text + "]}\n";
+  std::string text = Head(poses.bodies);
+  for (size_t i = 0; i < poses.frames.size(); ++i)
+    AppendFrameOfList(poses.frames[i], i == 0, &text);
+  return text.append(kTail);
+}
+
+GrowingPosesJson::GrowingPosesJson(const std::filesystem::path& path,
+                                   const std::vector<PersonBones>& bodies)
+    : file_(path, Head(bodies), kTail) {}
+
+void GrowingPosesJson::Add(const FramePoses& frame) {
+  std::string text;
+  AppendFrameOfList(frame, is_empty_, &text);
+  file_.Append(text);
+  is_empty_ = false;
 }
 
 void WritePosesJson(const Poses& poses, const std::filesystem::path& path) {

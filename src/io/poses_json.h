@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "src/io/growing_file.h"
 #include "src/poses.h"
 
 namespace poselift {
@@ -20,6 +22,20 @@ void WritePosesJson(const Poses& poses, const std::filesystem::path& path);
 
 // The text that WritePosesJson writes.
 std::string PosesJson(const Poses& poses);
+
+// The same file, frame after frame, whole at every moment (growing_file.h).
+class GrowingPosesJson {
+ public:
+  // Throw InputError when the file cannot be written; it is then as before.
+  explicit GrowingPosesJson(const std::filesystem::path& path,
+                            const std::vector<PersonBones>& bodies = {});
+  void Add(const FramePoses& frame);
+  void Close() { file_.Close(); }
+
+ private:
+  GrowingFile file_;
+  bool is_empty_ = true;
+};
 
 // A frame of it alone, on one line that ends in a line break: JSON lines.
 std::string FramePosesLine(const FramePoses& frame);

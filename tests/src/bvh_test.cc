@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <stdexcept>
 
 #include "src/forward_kinematics.h"
 #include "src/input_error.h"
@@ -160,6 +161,33 @@ TEST(WriteBvh, TakesAnAsfMotionThereAndBack) {
     EXPECT_TRUE(report.bones_at_rest.empty());
     EXPECT_LT(report.worst_rotation_rad * kDegFromRad, 1e-4);
   }
+}
+
+TEST(GrowingBvh, IsTheFileOfItsPosesSoFar) {
+  auto rng = TestRng();
+  const Motion motion = RandomMotion(MadeUp(), 12, &rng);
+  const auto path = ScratchDir() / "g.bvh";
+  GrowingBvh growing(path, motion.skeleton, motion.frame_time_s);
+  Motion so_far{motion.skeleton, motion.frame_time_s, {}};
+  for (const SkeletonPose& pose : motion.frames) {
+    growing.Add(pose);
+    so_far.frames.push_back(pose);
+    WriteBvh(so_far, ScratchDir() / "b.bvh");
+    std::string wanted = ReadTextFile(ScratchDir() / "b.bvh");
+    const std::string count = std::to_string(so_far.frames.size());
+    const size_t at = wanted.find("Frames: ") + 8;
+    wanted.insert(at + count.size(), 10 - count.size(), ' ');
+    ASSERT_EQ(ReadTextFile(path), wanted);
+    EXPECT_EQ(ReadBvh(path).frames.size(), so_far.frames.size());
+  }
+  EXPECT_THROW(growing.Add(UnknownPose(motion.skeleton)), std::invalid_argument);
+  SkeletonPose far = motion.frames[0];
+  far.root_in_world_m.z() = 1e12;
+  EXPECT_THROW(growing.Add(far), InputError);
+  growing.Add(motion.frames[0]);
+  growing.Close();
+  EXPECT_EQ(ReadBvh(path).frames.size(), 13u);
+  EXPECT_THROW(GrowingBvh(path, motion.skeleton, 0.0), InputError);
 }
 
 TEST(BvhRig, RestsInATPoseWithoutTheHipBones) {

@@ -115,6 +115,51 @@ TEST(PosesJson, SaysHowSureAnglesAreWhereThatIsKnown) {
   EXPECT_TRUE(back.frames[1].people[0].angles_sigma_deg.empty());
 }
 
+TEST(PosesJson, NamesTheTagsWhereThereAreAny) {
+  Poses poses = MadeUpPoses();
+  EXPECT_THAT(PosesJson(poses), Not(HasSubstr("tags")));
+  poses.frames[0].people[0].tags = {{3, 0.41, true, false}, {12, kUnknown, false, true}};
+  EXPECT_THAT(PosesJson(poses), HasSubstr("\"tags\": [{\"id\": 3, \"error_px\": 0.41, "
+                                          "\"believed\": true, \"ambiguous\": false}, "
+                                          "{\"id\": 12, \"believed\": false, "
+                                          "\"ambiguous\": true}]"));
+  const Poses back = ReadPosesJson(WriteScratch("poses.json", PosesJson(poses)));
+  const std::vector<PoseTag>& tags = back.frames[0].people[0].tags;
+  ASSERT_EQ(tags.size(), 2u);
+  EXPECT_EQ(tags[0].id, 3);
+  EXPECT_EQ(tags[0].error_px, 0.41);
+  EXPECT_TRUE(tags[0].believed);
+  EXPECT_FALSE(tags[0].ambiguous);
+  EXPECT_EQ(tags[1].id, 12);
+  EXPECT_TRUE(std::isnan(tags[1].error_px));
+  EXPECT_FALSE(tags[1].believed);
+  EXPECT_TRUE(tags[1].ambiguous);
+  EXPECT_TRUE(back.frames[1].people[0].tags.empty());
+  const FramePoses line = ReadFramePosesLine(FramePosesLine(poses.frames[0]), "line", 1);
+  EXPECT_EQ(line.people[0].tags.size(), 2u);
+  std::string text = PosesJson(poses);
+  text.replace(text.find("\"believed\": true"), 16, "\"believed\": 1");
+  EXPECT_THROW(ReadPosesJson(WriteScratch("poses.json", text)), InputError);
+}
+
+TEST(PosesJson, GrowsToTheSameFile) {
+  Poses poses = MadeUpPoses();
+  for (const bool has_bodies : {false, true}) {
+    if (has_bodies)
+      poses.bodies.push_back({4, Eigen::VectorXd::Constant(kNumJoints, 0.3),
+                              Eigen::VectorXd::Constant(kNumJoints, 0.01)});
+    const auto path = testing::ScratchDir() / "poses.json";
+    GrowingPosesJson growing(path, poses.bodies);
+    Poses so_far{{}, poses.bodies};
+    EXPECT_EQ(FileText(path), PosesJson(so_far));
+    for (const FramePoses& frame : poses.frames) {
+      growing.Add(frame);
+      so_far.frames.push_back(frame);
+      EXPECT_EQ(FileText(path), PosesJson(so_far));
+    }
+  }
+}
+
 TEST(PosesJson, OfThousandsOfFramesGrowsWithTheirNumber) {
   Poses poses;
   for (int f = 0; f < 5000; ++f) poses.frames.push_back({"", f / 30.0, {MadeUpPerson()}});
@@ -194,6 +239,18 @@ TEST(AnglesCsv, TheSigmasHaveATableOfTheirOwn) {
   EXPECT_EQ(AnglesCsv(poses), angles);
   EXPECT_EQ(AnglesSigmaCsv(poses),
             "frame,time_s,left_elbow.flexion\r\n0,0,2.5\r\n1,0.033333,\r\n2,,\r\n");
+}
+
+TEST(AnglesCsv, GrowsToTheSameFileWithTheColumnsNamed) {
+  const Poses poses = MadeUpPoses();
+  const auto path = testing::ScratchDir() / "angles.csv";
+  GrowingAnglesCsv growing(path, &PersonPose::angles_deg, {"left_elbow.flexion", "of, none"});
+  EXPECT_EQ(FileText(path), "frame,time_s,left_elbow.flexion,\"of, none\"\r\n");
+  for (const FramePoses& frame : poses.frames) growing.Add(frame);
+  growing.Close();
+  EXPECT_EQ(
+      FileText(path),
+      "frame,time_s,left_elbow.flexion,\"of, none\"\r\n0,0,31.25,\r\n1,0.033333,,\r\n2,,,\r\n");
 }
 
 TEST(AnglesCsv, OfNobodyHasOnlyFrames) {

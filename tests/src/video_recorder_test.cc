@@ -8,12 +8,9 @@
 #include "src/io/video_recorder.h"
 
 #include <gtest/gtest.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <functional>
@@ -22,6 +19,7 @@
 
 #include "src/input_error.h"
 #include "src/io/video.h"
+#include "tests/support/child.h"
 #include "tests/support/mutation.h"
 #include "tests/support/support.h"
 
@@ -29,6 +27,7 @@ namespace poselift {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::Child;
 using testing::FileText;
 using testing::ScratchDir;
 using testing::WriteScratch;
@@ -203,46 +202,12 @@ TEST(VideoRecorder, DamagedFramesLeaveTheGoodOnes) {
   EXPECT_EQ(next, num_good);
 }
 
-// A child and what it shares with us.
-struct Shared {
-  std::atomic<int> added{0};
-  char complaint[400] = {};
-};
-
-class Child {
- public:
-  explicit Child(const std::function<void(Shared*)>& work) {
-    void* memory =
-        ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    shared_ = new (memory) Shared;
-    id_ = ::fork();
-    if (id_ != 0) return;
-    work(shared_);
-    ::_exit(0);
-  }
-  ~Child() { ::munmap(shared_, sizeof(Shared)); }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-
-  const Shared& shared() const { return *shared_; }
-  void Kill() const { ::kill(id_, SIGKILL); }
-  int Wait() const {
-    int status = 0;
-    ::waitpid(id_, &status, 0);
-    return status;
-  }
-
- private:
-  Shared* shared_ = nullptr;
-  pid_t id_ = -1;
-};
-
 TEST(VideoRecorder, KilledLosesNoFrameThatWasAdded) {
   const fs::path path = ScratchDir() / "a.mkv";
   const auto frames = EvenFrames(3000);
   auto rng = testing::TestRng();
   for (int trial = 0; trial < 12; ++trial) {
-    const Child child([&](Shared* shared) {
+    const Child child([&](Child::Shared* shared) {
       VideoRecorder recorder(path, kSize_px);
       for (const JpegFrame& frame : frames) {
         recorder.Add(frame);
@@ -266,7 +231,7 @@ TEST(VideoRecorder, EndsWithTheLastGoodFrameWhenTheFileMayNotGrow) {
   const fs::path path = ScratchDir() / "a.mkv";
   const auto frames = EvenFrames(200);
   for (const rlim_t limit : {20000u, 20500u, 21111u, 33333u}) {
-    const Child child([&](Shared* shared) {
+    const Child child([&](Child::Shared* shared) {
       ::signal(SIGXFSZ, SIG_IGN);
       const rlimit bytes{limit, limit};
       ::setrlimit(RLIMIT_FSIZE, &bytes);

@@ -29,30 +29,49 @@ bool IsWellSeen(const testing::TagTruth& tag) {
   return tag.visible_share > kWellSeenShare && tag.facing_rad < kWellSeen_rad;
 }
 
-// The joints at both ends of the bones whose tags are detected.
-std::array<bool, kNumJoints> SeenJoints(const BodyTags& worn,
-                                        const std::vector<TagDetection>& detections) {
-  std::array<bool, kNumJoints> seen{};
+// Of bones, by the joints at their ends: whether a tag of theirs is detected.
+using SeenBones = std::array<bool, kNumJoints>;
+
+SeenBones FindSeen(const BodyTags& worn, const std::vector<TagDetection>& detections) {
+  SeenBones seen{};
   for (const TagDetection& detection : detections) {
     const BodyTag* tag = worn.Find(detection.id);
     if (!tag || !tag->on_bone) continue;
     for (int j = 0; j < kNumJoints; ++j) {
-      const JointInfo& joint = Joints()[static_cast<size_t>(j)];
-      if (joint.cmu_bone != tag->on_bone->bone) continue;
-      seen[static_cast<size_t>(j)] = true;
-      if (joint.parent >= 0) seen[static_cast<size_t>(joint.parent)] = true;
+      if (Joints()[static_cast<size_t>(j)].cmu_bone == tag->on_bone->bone)
+        seen[static_cast<size_t>(j)] = true;
     }
   }
   return seen;
 }
+
+// At an end of a bone that is seen.
+bool IsVisible(int joint, const SeenBones& seen) {
+  if (seen[static_cast<size_t>(joint)]) return true;
+  for (int j = 0; j < kNumJoints; ++j)
+    if (seen[static_cast<size_t>(j)] && Joints()[static_cast<size_t>(j)].parent == joint)
+      return true;
+  return false;
+}
+
+// RMS of hinges, of which both bones are seen.
+struct HingeSum {
+  double deg2 = 0.0;
+  int count = 0;
+
+  void Add(double off_deg) {
+    deg2 += off_deg * off_deg;
+    ++count;
+  }
+  double Rms_deg() const { return count > 0 ? std::sqrt(deg2 / count) : 0.0; }
+};
 
 // Sums over frames, then TrackErrors.
 class ErrorSums {
  public:
   explicit ErrorSums(const Skeleton& captured) : reader_(captured) {}
 
-  void Add(const PersonPose& person, const testing::FrameTruth& truth,
-           const std::array<bool, kNumJoints>& seen) {
+  void Add(const PersonPose& person, const testing::FrameTruth& truth, const SeenBones& seen) {
     ++errors_.num_frames;
     if (!person.joints_in_cam_m.allFinite()) {
       ++errors_.num_unknown;
@@ -63,19 +82,25 @@ class ErrorSums {
     const Eigen::RowVectorXd off_m = (person.joints_in_cam_m - true_m).colwise().norm();
     for (int j = 0; j < kNumJoints; ++j) {
       all_m_ += off_m[j];
-      if (!seen[static_cast<size_t>(j)]) continue;
+      if (!IsVisible(j, seen)) continue;
       visible_m_ += off_m[j];
       ++num_visible_;
     }
-    const auto flipped = [&](int j) { return seen[static_cast<size_t>(j)] && off_m[j] > kFlip_m; };
+    const auto flipped = [&](int j) { return IsVisible(j, seen) && off_m[j] > kFlip_m; };
     errors_.num_flips += flipped(joint::kLeftKnee) || flipped(joint::kRightKnee) ||
                          flipped(joint::kLeftElbow) || flipped(joint::kRightElbow);
     const Eigen::VectorXd true_deg = reader_.ReadDeg(truth.pose);
     for (Eigen::Index a = 0; a < true_deg.size(); ++a) {
       const auto& [name, value] = person.angles_deg[static_cast<size_t>(a)];
-      const double off_deg = std::remainder(value - true_deg[a], 360.0);
-      if (name.ends_with("elbow.flexion")) elbows_deg2_ += 0.5 * off_deg * off_deg;
-      if (name.ends_with("knee.flexion")) knees_deg2_ += 0.5 * off_deg * off_deg;
+      const auto dot = name.find('.');
+      if (name.substr(dot + 1) != "flexion") continue;
+      const auto hinge = FindJoint(name.substr(0, dot));
+      HingeSum* const sum = name.find("elbow") != std::string::npos  ? &elbows_
+                            : name.find("knee") != std::string::npos ? &knees_
+                                                                     : nullptr;
+      // The bone behind the hinge has the next number.
+      if (sum && seen[static_cast<size_t>(*hinge)] && seen[static_cast<size_t>(*hinge + 1)])
+        sum->Add(std::remainder(value - true_deg[a], 360.0));
     }
   }
 
@@ -85,15 +110,16 @@ class ErrorSums {
     if (known == 0) return errors;
     errors.all_mm = 1e3 * all_m_ / (known * kNumJoints);
     if (num_visible_ > 0) errors.visible_mm = 1e3 * visible_m_ / num_visible_;
-    errors.elbows_deg = std::sqrt(elbows_deg2_ / known);
-    errors.knees_deg = std::sqrt(knees_deg2_ / known);
+    errors.elbows_deg = elbows_.Rms_deg();
+    errors.knees_deg = knees_.Rms_deg();
     return errors;
   }
 
  private:
   JointAngleReader reader_;
   TrackErrors errors_;
-  double all_m_ = 0.0, visible_m_ = 0.0, elbows_deg2_ = 0.0, knees_deg2_ = 0.0;
+  HingeSum elbows_, knees_;
+  double all_m_ = 0.0, visible_m_ = 0.0;
   int num_visible_ = 0;
 };
 
@@ -185,7 +211,7 @@ TrackErrors TrackVideo(const TaggedVideo& video, const Skeleton& captured, const
     tracker.Add(frame.time_s, frame.tags);
     const auto tracked = tracker.Take();  // without latency there is one each time
     const size_t t = static_cast<size_t>(std::lround(frame.time_s / video.frame_time_s));
-    sums.Add(person.Convert(*tracked), video.truth[t], SeenJoints(worn, video.detections[t]));
+    sums.Add(person.Convert(*tracked), video.truth[t], FindSeen(worn, video.detections[t]));
   }
   TrackErrors errors = sums.Errors();
   errors.detected_share = DetectedShare(video);

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "lift/default_dictionary.h"
+#include "lift/dictionary_file.h"
+#include "lift/poses_to_motion.h"
+#include "lift/temporal/motion_codebook_file.h"
+#include "src/capture/live_frame_source.h"
+#include "src/input_error.h"
+#include "src/io/atomic_file.h"
+#include "src/io/body_tags_toml.h"
+#include "src/io/frame_ring.h"
+#include "src/io/poses_json.h"
+#include "src/io/udp_lines.h"
+#include "src/io/video_recorder.h"
+#include "ui/cli/command.h"
+#include "ui/cli/frame_rate.h"
+#include "ui/cli/latency_meter.h"
+#include "ui/cli/tag_session.h"
+#include "ui/cli/track_recording.h"
+#include "ui/cli/tracking_inputs.h"
+
+namespace poselift::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr double kStatusEvery_s = 1.0;
+
+struct Options {
+  TrackingInputs inputs;
+  std::string tags;
+  std::string out;
+  std::string dictionary;
+  std::string motion_model;
+  std::string json;
+  TagSessionOptions session;
+  double seconds = 0.0;
+  bool stream = false;
+  int udp_port = 0;
+  bool record = false;
+  bool window = false;
+};
+
+// Set by a signal: the recording is closed as it should be.
+std::atomic<bool> stop_asked = false;  // NOLINT(readability-identifier-naming): a variable
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+double Monotonic_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct Counts {
+  long frames = 0, lost = 0, ok = 0, filled = 0, unknown = 0;
+  long tags = 0;
+  double seconds = 0.0;  // of the clock
+};
+
+// Where frames of poses go as they come.
+class Outputs {
+ public:
+  Outputs(const Options& options, const Skeleton& skeleton, double frame_time_s)
+      : stream_(options.stream) {
+    if (!options.out.empty()) recording_.emplace(options.out, skeleton, frame_time_s);
+    if (options.udp_port > 0) udp_.emplace(options.udp_port);
+  }
+
+  void Write(const TagSession::Tracked& tracked) {
+    if (stream_ || udp_) {
+      const std::string line = FramePosesLine(tracked.poses);
+      if (stream_) WriteToStandardOutput(line);
+      if (udp_) udp_->Send(line);
+    }
+    // The latency is up to here: a file may be late.
+    if (std::isfinite(tracked.monotonic_s)) latency_.Add(Monotonic_s() - tracked.monotonic_s);
+    if (recording_) recording_->Add(tracked.poses, tracked.pose, *tracked.poses.time_s);
+  }
+
+  void Close() {
+    if (recording_) recording_->Close();
+  }
+  const LatencyMeter& latency() const { return latency_; }
+
+ private:
+  static void WriteToStandardOutput(const std::string& line) {
+    if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size() || std::fflush(stdout) != 0)
+      throw InputError("standard output cannot be written: has its reader ended?");
+  }
+
+  bool stream_;
+  std::optional<TrackRecording> recording_;
+  std::optional<UdpLines> udp_;
+  LatencyMeter latency_;
+};
+
+void Count(const TagSession::Tracked& tracked, Counts* counts) {
+  const std::string& status = tracked.poses.people.front().status;
+  counts->ok += status == "ok";
+  counts->filled += status == kFilledStatus;
+  counts->unknown += status == kUnknownStatus;
+  counts->tags += tracked.num_tags;
+}
+
+Json Facts(const Options& options, const Counts& counts, const LatencyMeter& latency) {
+  Json facts = {{"command", "track"},
+                {"input", options.inputs.input},
+                {"frames", counts.frames},
+                {"lost", counts.lost},
+                {"ok", counts.ok},
+                {"filled", counts.filled},
+                {"not_known", counts.unknown},
+                {"tags_per_frame", counts.frames > 0 ? static_cast<double>(counts.tags) /
+                                                           static_cast<double>(counts.frames)
+                                                     : 0.0},
+                {"seconds", counts.seconds}};
+  if (latency.count() > 0)
+    facts["latency_ms"] = {{"median", latency.Quantile_ms(0.5)},
+                           {"p99", latency.Quantile_ms(0.99)}};
+  return facts;
+}
+
+void Report(const Options& options, const Counts& counts, const LatencyMeter& latency) {
+  std::string text = fmt::format(
+      "{} frames in {:.1f} s, {} lost: {} ok, {} filled, {} not known; {:.1f} tags a frame",
+      counts.frames, counts.seconds, counts.lost, counts.ok, counts.filled, counts.unknown,
+      counts.frames > 0 ? static_cast<double>(counts.tags) / static_cast<double>(counts.frames)
+                        : 0.0);
+  if (latency.count() > 0)
+    text += fmt::format("; from camera to line {:.1f} ms at the median, {:.1f} ms at 99 %",
+                        latency.Quantile_ms(0.5), latency.Quantile_ms(0.99));
+  // Standard output may be the stream.
+  fmt::print(options.stream ? stderr : stdout, "{}\n", text);
+  if (!options.out.empty())
+    fmt::print(options.stream ? stderr : stdout, "results in {}\n", options.out);
+  if (!options.json.empty())
+    WriteFileAtomically(options.json, Facts(options, counts, latency).dump(2) + "\n");
+}
+
+int Track(Options options) {
+  const BodyTags tags = ReadBodyTags(options.tags);
+  const Dictionary dictionary = ReadDictionary(
+      options.dictionary.empty() ? DefaultDictionaryPath() : fs::path(options.dictionary));
+  auto codebook = std::make_shared<const MotionCodebook>(WithMirrored(ReadMotionCodebook(
+      options.motion_model.empty() ? DefaultMotionModelPath() : fs::path(options.motion_model))));
+  const PhotoLifter lifter(dictionary);
+  const std::unique_ptr<FrameSource> source = OpenSource(options.inputs);
+  const Camera camera = CameraOf(options.inputs, source->size_px());
+  TagSession session(tags, camera, lifter, codebook, options.session);
+  Outputs outputs(options, session.skeleton(), 1.0 / options.inputs.rate_hz);
+  stop_asked = false;
+  for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { stop_asked = true; });
+
+  Counts counts;
+  const double start_s = Monotonic_s();
+  const auto take = [&] {
+    while (const auto tracked = session.Take()) {
+      Count(*tracked, &counts);
+      outputs.Write(*tracked);
+    }
+  };
+  while (!stop_asked) {
+    const auto frame = source->Next();
+    if (!frame || (options.seconds > 0.0 && frame->time_s >= options.seconds)) break;
+    ++counts.frames;
+    counts.lost += frame->num_lost;
+    session.Add(*frame);
+    take();
+  }
+  session.End();
+  take();
+  counts.seconds = Monotonic_s() - start_s;
+  outputs.Close();
+  Report(options, counts, outputs.latency());
+  return counts.ok > 0 ? kDone : kFailed;
+}
+
+}  // namespace
+
+CLI::App* AddTrack(CLI::App* app, Run* run) {
+  auto options = std::make_shared<Options>();
+  options->session.detector.threads = 2;
+  CLI::App* command =
+      app->add_subcommand("track", "A person who wears AprilTags, followed by a camera, live");
+  command->footer(
+      "Writes poses.json, poses.bvh, angles.csv and angles_sigma.csv into --out as it goes: they\n"
+      "are whole at every moment. Ctrl-C ends it.\n"
+      "Example:\n  poselift track /dev/video0 --camera cam.yaml --tags tags.toml --out run/");
+  AddTrackingInputs(command, &options->inputs);
+  command->add_option("--tags", options->tags, "Which tag sits where (tags.toml)")->required();
+  command->add_option("--out", options->out, "Folder for the recording; made when missing");
+  command->add_flag("--stream", options->stream,
+                    "Write each frame as a line of JSON to standard output");
+  command->add_option("--udp", options->udp_port, "Send each line to this port of this machine")
+      ->check(CLI::Range(1, 65535));
+  command->add_option("--latency-s", options->session.tracker.filter.latency_s,
+                      "Wait so long for frames to come that set a pose right")
+      ->check(IsNumber(0.0, 10.0))
+      ->capture_default_str();
+  command->add_option("--max-gap-s", options->session.tracker.filter.max_gap_s,
+                      "So long is a person foretold of whom no tag is seen")
+      ->check(IsNumber(0.0, 10.0))
+      ->capture_default_str();
+  command->add_option("--seconds", options->seconds, "Stop after so long (default: at the end)")
+      ->check(IsNumber(0.0, 1e6));
+  command->add_option("--threads", options->session.detector.threads, "That look for tags")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command->add_option("--dictionary", options->dictionary, "Default: the one that ships");
+  command->add_option("--motion-model", options->motion_model, "Default: the one that ships");
+  command->add_flag("--window,!--no-window", options->window, "There is no window yet");
+  command->add_option("--json", options->json, "Write the report to this file");
+  command->callback([options] {
+    if (options->out.empty() && !options->stream && options->udp_port == 0)
+      throw CLI::RequiredError("--out, --stream or --udp");
+  });
+  *run = [options] { return Track(*options); };
+  return command;
+}
+
+}  // namespace poselift::cli
