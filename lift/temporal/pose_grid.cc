@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "src/pose_between.h"
 #include "src/input_error.h"
+#include "src/pose_between.h"
 
 namespace poselift {
 namespace {

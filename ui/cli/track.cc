@@ -208,12 +208,14 @@ CLI::App* AddTrack(CLI::App* app, Run* run) {
                     "Write each frame as a line of JSON to standard output");
   command->add_option("--udp", options->udp_port, "Send each line to this port of this machine")
       ->check(CLI::Range(1, 65535));
-  command->add_option("--latency-s", options->session.tracker.filter.latency_s,
-                      "Wait so long for frames to come that set a pose right")
+  command
+      ->add_option("--latency-s", options->session.tracker.filter.latency_s,
+                   "Wait so long for frames to come that set a pose right")
       ->check(IsNumber(0.0, 10.0))
       ->capture_default_str();
-  command->add_option("--max-gap-s", options->session.tracker.filter.max_gap_s,
-                      "So long is a person foretold of whom no tag is seen")
+  command
+      ->add_option("--max-gap-s", options->session.tracker.filter.max_gap_s,
+                   "So long is a person foretold of whom no tag is seen")
       ->check(IsNumber(0.0, 10.0))
       ->capture_default_str();
   command->add_option("--seconds", options->seconds, "Stop after so long (default: at the end)")
