@@ -17,6 +17,7 @@ std::span<const Recogniser> Recognisers() {
       Recogniser{"pose dictionary", IsDictionary, DescribeDictionary},
       Recogniser{"motion codebook", IsMotionCodebook, DescribeMotionCodebook},
       Recogniser{"picture", IsImage, DescribeImage},
+      Recogniser{"tags of a body", IsBodyTags, DescribeBodyTags},  // before all other YAML
       Recogniser{"camera", IsCamera, DescribeCamera},
       Recogniser{"lifted poses", IsPoses, DescribePoses},
       Recogniser{"true joints", IsTruth, DescribeTruth},

@@ -39,6 +39,10 @@ nlohmann::ordered_json DescribeDictionary(const std::filesystem::path& path);
 bool IsMotionCodebook(const std::filesystem::path& path, std::string_view head);
 nlohmann::ordered_json DescribeMotionCodebook(const std::filesystem::path& path);
 
+// The tags that a person wears: recognise_tags.cc.
+bool IsBodyTags(const std::filesystem::path& path, std::string_view head);
+nlohmann::ordered_json DescribeBodyTags(const std::filesystem::path& path);
+
 bool IsCamera(const std::filesystem::path& path, std::string_view head);
 nlohmann::ordered_json DescribeCamera(const std::filesystem::path& path);
 
