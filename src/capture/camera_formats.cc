@@ -110,7 +110,8 @@ double ChooseRate(const CameraSize& size, double wanted_hz) {
 }
 
 int Cost(uint32_t fourcc) {
-  constexpr std::array kCheapestFirst = {kGrey, kNv12, kYuyv, kMjpg, kJpeg};
+  constexpr std::array kCheapestFirst = {kFourccGrey, kFourccNv12, kFourccYuyv, kFourccMjpg,
+                                         kFourccJpeg};
   return static_cast<int>(std::find(kCheapestFirst.begin(), kCheapestFirst.end(), fourcc) -
                           kCheapestFirst.begin());
 }

@@ -13,11 +13,13 @@ constexpr uint32_t Fourcc(char a, char b, char c, char d) {
   return byte(a) | byte(b) << 8 | byte(c) << 16 | byte(d) << 24;
 }
 
-inline constexpr uint32_t kMjpg = Fourcc('M', 'J', 'P', 'G');  // a JPEG a frame
-inline constexpr uint32_t kJpeg = Fourcc('J', 'P', 'E', 'G');  // the same by another name
-inline constexpr uint32_t kYuyv = Fourcc('Y', 'U', 'Y', 'V');  // 4:2:2, Y U Y V for two pixels
-inline constexpr uint32_t kNv12 = Fourcc('N', 'V', '1', '2');  // 4:2:0, a plane of Y, one of UV
-inline constexpr uint32_t kGrey = Fourcc('G', 'R', 'E', 'Y');  // Y alone
+inline constexpr uint32_t kFourccMjpg = Fourcc('M', 'J', 'P', 'G');  // a JPEG a frame
+inline constexpr uint32_t kFourccJpeg = Fourcc('J', 'P', 'E', 'G');  // the same by another name
+inline constexpr uint32_t kFourccYuyv =
+    Fourcc('Y', 'U', 'Y', 'V');  // 4:2:2, Y U Y V for two pixels
+inline constexpr uint32_t kFourccNv12 =
+    Fourcc('N', 'V', '1', '2');  // 4:2:0, a plane of Y, one of UV
+inline constexpr uint32_t kFourccGrey = Fourcc('G', 'R', 'E', 'Y');  // Y alone
 
 // "MJPG"; what cannot be printed becomes '?'.
 inline std::string FourccText(uint32_t fourcc) {

@@ -16,7 +16,7 @@
 namespace poselift {
 namespace {
 
-bool IsJpeg(uint32_t fourcc) { return fourcc == kMjpg || fourcc == kJpeg; }
+bool IsJpeg(uint32_t fourcc) { return fourcc == kFourccMjpg || fourcc == kFourccJpeg; }
 
 // Whether a JPEG ends as it should, and its restart markers stand in their order. Only this
 // tells a webcam's habit of bytes too many from a piece that is missing.
@@ -48,6 +48,12 @@ bool IsHarmless(const char* warning, const cv::Mat& bytes) {
          HasAllMarkers(bytes);
 }
 
+std::unique_ptr<void, int (*)(void*)> NewJpegDecoder() {
+  std::unique_ptr<void, int (*)(void*)> decoder(tjInitDecompress(), tjDestroy);
+  if (!decoder) throw std::bad_alloc();
+  return decoder;
+}
+
 struct Layout {
   int bytes_per_line = 0;
   int rows = 0;  // of all planes
@@ -55,8 +61,8 @@ struct Layout {
 
 std::string CheckRaw(const RawFormat& format, const cv::Mat& bytes, Layout* layout) {
   const auto [width_px, height_px] = std::pair(format.size_px.width, format.size_px.height);
-  const bool is_yuyv = format.fourcc == kYuyv;
-  const bool is_nv12 = format.fourcc == kNv12;
+  const bool is_yuyv = format.fourcc == kFourccYuyv;
+  const bool is_nv12 = format.fourcc == kFourccNv12;
   if ((is_yuyv || is_nv12) && width_px % 2 != 0) return "an odd width";
   if (is_nv12 && height_px % 2 != 0) return "an odd height";
   const int packed = is_yuyv ? 2 * width_px : width_px;
@@ -67,7 +73,9 @@ std::string CheckRaw(const RawFormat& format, const cv::Mat& bytes, Layout* layo
   const size_t wanted =
       static_cast<size_t>(layout->bytes_per_line) * (static_cast<size_t>(layout->rows) - 1) +
       static_cast<size_t>(packed);
-  if (bytes.total() < wanted) return fmt::format("{} bytes of {}", bytes.total(), wanted);
+  constexpr size_t kMostBytes = 1'000'000'000;
+  if (bytes.total() < wanted || wanted > kMostBytes)
+    return fmt::format("{} bytes of {}", bytes.total(), wanted);
   return "";
 }
 
@@ -100,17 +108,24 @@ cv::Mat PairPlane(const cv::Mat& bytes, const Layout& layout, cv::Size size_px) 
 }  // namespace
 
 bool IsDecodable(uint32_t fourcc) {
-  return IsJpeg(fourcc) || fourcc == kYuyv || fourcc == kNv12 || fourcc == kGrey;
+  return IsJpeg(fourcc) || fourcc == kFourccYuyv || fourcc == kFourccNv12 || fourcc == kFourccGrey;
 }
 
 std::string DecodableFormats() { return "MJPG, YUYV, NV12 or GREY"; }
 
-FrameDecoder::FrameDecoder() : jpeg_(tjInitDecompress(), tjDestroy) {
-  if (!jpeg_) throw std::bad_alloc();
-}
+FrameDecoder::FrameDecoder() : jpeg_(NewJpegDecoder()) {}
 
+// libjpeg-turbo 2.1.5 may refuse every frame that follows one it could not read: a decoder that
+// failed is not used again.
 std::string FrameDecoder::DecodeJpeg(const RawFormat& format, const cv::Mat& bytes, int type,
                                      cv::Mat* picture) {
+  std::string flaw = TryJpeg(format, bytes, type, picture);
+  if (!flaw.empty()) jpeg_ = NewJpegDecoder();
+  return flaw;
+}
+
+std::string FrameDecoder::TryJpeg(const RawFormat& format, const cv::Mat& bytes, int type,
+                                  cv::Mat* picture) {
   const auto num_bytes = static_cast<unsigned long>(bytes.total());
   int width_px = 0, height_px = 0, subsampling = 0, colours = 0;
   if (tjDecompressHeader3(jpeg_.get(), bytes.data, num_bytes, &width_px, &height_px, &subsampling,
@@ -135,7 +150,7 @@ std::string FrameDecoder::ToGrey(const RawFormat& format, const cv::Mat& bytes, 
   if (IsJpeg(format.fourcc)) return DecodeJpeg(format, bytes, CV_8UC1, grey);
   Layout layout;
   if (std::string flaw = CheckRaw(format, bytes, &layout); !flaw.empty()) return flaw;
-  if (format.fourcc == kYuyv)
+  if (format.fourcc == kFourccYuyv)
     cv::extractChannel(PairPlane(bytes, layout, format.size_px), *grey, 0);
   else
     *grey = Plane(bytes, layout, 0, format.size_px.height, format.size_px.width);
@@ -148,12 +163,12 @@ std::string FrameDecoder::ToBgr(const RawFormat& format, const cv::Mat& bytes, c
   Layout layout;
   if (std::string flaw = CheckRaw(format, bytes, &layout); !flaw.empty()) return flaw;
   const cv::Size size_px = format.size_px;
-  if (format.fourcc == kYuyv) {
+  if (format.fourcc == kFourccYuyv) {
     cv::cvtColor(PairPlane(bytes, layout, size_px), *bgr, cv::COLOR_YUV2BGR_YUYV);
     return "";
   }
   const cv::Mat y = Plane(bytes, layout, 0, size_px.height, size_px.width);
-  if (format.fourcc == kGrey) {
+  if (format.fourcc == kFourccGrey) {
     cv::cvtColor(y, *bgr, cv::COLOR_GRAY2BGR);
     return "";
   }

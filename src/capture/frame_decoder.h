@@ -39,6 +39,7 @@ class FrameDecoder {
 
  private:
   std::string DecodeJpeg(const RawFormat& format, const cv::Mat& bytes, int type, cv::Mat* picture);
+  std::string TryJpeg(const RawFormat& format, const cv::Mat& bytes, int type, cv::Mat* picture);
 
   std::unique_ptr<void, int (*)(void*)> jpeg_;
 };
