@@ -20,7 +20,7 @@ constexpr std::array kCommands = {
     AddCommand{poselift::cli::AddConvert},  AddCommand{poselift::cli::AddInfo},
     AddCommand{poselift::cli::AddLift},     AddCommand{poselift::cli::AddTrain},
     AddCommand{poselift::cli::AddEvaluate}, AddCommand{poselift::cli::AddSmooth},
-    AddCommand{poselift::cli::AddPlot},
+    AddCommand{poselift::cli::AddPlot},     AddCommand{poselift::cli::AddDoctor},
 };
 
 int RunGuarded(const Run& run) {

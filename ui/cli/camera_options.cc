@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "ui/cli/camera_options.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Option.hpp>
+#include <charconv>
+
+#include "src/capture/fourcc.h"
+#include "src/input_error.h"
+#include "ui/cli/frame_rate.h"
+
+namespace poselift::cli {
+namespace {
+
+cv::Size ParseSize(const std::string& text) {
+  cv::Size size_px;
+  const char* const end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size_px.width);
+  const bool has_cross = width.ptr != end && (*width.ptr == 'x' || *width.ptr == 'X');
+  const auto height = std::from_chars(has_cross ? width.ptr + 1 : end, end, size_px.height);
+  if (height.ec != std::errc() || height.ptr != end || size_px.width < 1 || size_px.height < 1)
+    throw InputError("found --size " + text + ", wanted WIDTHxHEIGHT in pixels: 1280x720");
+  return size_px;
+}
+
+}  // namespace
+
+CameraOptions CameraChoice::Options() const {
+  CameraOptions options;
+  options.wanted = {0, ParseSize(size), rate_hz};
+  if (!format.empty()) {
+    const std::string letters = format + "    ";
+    options.wanted.fourcc = Fourcc(letters[0], letters[1], letters[2], letters[3]);
+    if (format.size() > 4 || !IsDecodable(options.wanted.fourcc))
+      throw InputError("found --format " + format + ", wanted " + DecodableFormats());
+  }
+  for (const std::string& control : controls) options.controls.push_back(ParseControl(control));
+  return options;
+}
+
+void AddCameraOptions(CLI::App* command, CameraChoice* choice) {
+  command->add_option("--size", choice->size, "The camera's picture, WIDTHxHEIGHT")
+      ->capture_default_str();
+  command->add_option("--rate", choice->rate_hz, "The camera's pictures a second")
+      ->check(IsFrameRate())
+      ->capture_default_str();
+  command->add_option(
+      "--format", choice->format,
+      "The camera's format: " + DecodableFormats() + "; else the best for the rate");
+  command
+      ->add_option("--set", choice->controls,
+                   "A control of the camera: exposure=50 (0.1 ms), gain=20, ...; exposure, gain, "
+                   "focus and white balance are set to manual before")
+      ->allow_extra_args(false);
+}
+
+}  // namespace poselift::cli
