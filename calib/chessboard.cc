@@ -7,10 +7,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "calib/saddle_points.h"
 #include "src/input_error.h"
 
 namespace poselift {
@@ -18,8 +20,7 @@ namespace {
 
 constexpr int kFewestCorners = 3;  // a side; the finder knows no less
 constexpr int kMostCorners = 50;
-// On real photos only both flags together find every whole board, and take exactly the
-// counts asked for.
+// On real photos both flags together find every whole board at exactly the counts asked for.
 constexpr int kFlags = cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_NORMALIZE_IMAGE;
 
 struct Corners {
@@ -33,6 +34,7 @@ struct Corners {
 Corners FindCorners(const cv::Mat& grey, const BoardCounts& counts, int flags) {
   Corners corners;
   cv::Mat meta;
+  cv::theRNG() = cv::RNG(1);  // the finder draws from it
   try {
     if (!cv::findChessboardCornersSB(grey, cv::Size(counts.columns, counts.rows), corners.px, flags,
                                      meta))
@@ -83,6 +85,27 @@ void MakeRightHanded(Corners* corners) {
   }
 }
 
+double LeastSpacing_px(const Corners& corners) {
+  double least_px = std::numeric_limits<double>::infinity();
+  for (int row = 0; row < corners.rows; ++row)
+    for (int column = 0; column < corners.columns; ++column) {
+      const Eigen::Vector2d x = At(corners, row, column);
+      if (row > 0) least_px = std::min(least_px, (x - At(corners, row - 1, column)).norm());
+      if (column > 0) least_px = std::min(least_px, (x - At(corners, row, column - 1)).norm());
+    }
+  return least_px;
+}
+
+// A larger window feels more of the light that falls unevenly on a real board.
+void RefineCorners(const cv::Mat& grey, Corners* corners) {
+  constexpr double kOfSpacing = 0.12;
+  constexpr int kSmallest_px = 2, kLargest_px = 8;
+  RefineSaddlePoints(grey,
+                     std::clamp(static_cast<int>(kOfSpacing * LeastSpacing_px(*corners)),
+                                kSmallest_px, kLargest_px),
+                     &corners->px);
+}
+
 // Large pictures are not needed to count.
 cv::Mat Reduced(const cv::Mat& grey) {
   constexpr double kPixels = 1e6;
@@ -124,6 +147,7 @@ BoardView ChessboardFinder::Find(const cv::Mat& grey) {
   Corners corners = FindCorners(grey, counts(), kFlags);
   if (!IsGrid(corners)) return {};
   MakeRightHanded(&corners);
+  RefineCorners(grey, &corners);
   BoardView view;
   view.ids.resize(corners.px.size());
   std::iota(view.ids.begin(), view.ids.end(), 0);

@@ -14,6 +14,7 @@ namespace {
 
 constexpr size_t kFewestViews = 4;
 constexpr double kLoss_px = 1.0;
+constexpr double kLittleWorse = 0.05;  // of the squared error: not worth a coefficient
 
 struct Fold {
   std::vector<const BoardView*> views;  // of the fit
@@ -76,7 +77,9 @@ LensModel SelectLensModel(const CalibrationBoard& board, const std::vector<const
   }
   for (size_t m = 0; m < best; ++m) {
     const Eigen::VectorXd worse_px2 = errors_px2[m] - errors_px2[best];
-    if (worse_px2.allFinite() && worse_px2.mean() <= StandardError(worse_px2))
+    if (worse_px2.allFinite() &&
+        worse_px2.mean() <=
+            std::max(StandardError(worse_px2), kLittleWorse * errors_px2[best].mean()))
       return kLensModels[m];
   }
   return kLensModels[best];

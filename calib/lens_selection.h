@@ -12,8 +12,8 @@ namespace poselift {
 // all of them, and the start of each fit.
 
 // The smallest lens model that shows views left out of its fit as well as the best model
-// does, but for one standard error of the difference over the views. With fewer than four
-// views: k1 alone, nothing can be left out.
+// does, but for one standard error of the difference over the views, or a twentieth of the
+// squared error. With fewer than four views: k1 alone, nothing can be left out.
 LensModel SelectLensModel(const CalibrationBoard& board, const std::vector<const BoardView*>& views,
                           const CalibrationState& state);
 
