@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -135,11 +136,38 @@ void SetDistortion(const TextScanner& scanner, const Numbers& coefficients, Came
   camera->distortion = {k[0], k[1], k[2], k[3], k[4], k[5], k[6], k[7]};
 }
 
-std::string Matrix(int rows, const std::vector<double>& values) {
+std::string Joined(const std::vector<double>& values) {
   std::string data;
   for (const double value : values) data += fmt::format("{}{}", data.empty() ? "" : ", ", value);
+  return data;
+}
+
+std::string OpenCvMatrix(int rows, const std::vector<double>& values) {
   return fmt::format("!!opencv-matrix\n   rows: {}\n   cols: {}\n   dt: d\n   data: [ {} ]\n", rows,
-                     values.size() / static_cast<size_t>(rows), data);
+                     values.size() / static_cast<size_t>(rows), Joined(values));
+}
+
+std::string RosMatrix(int rows, const std::vector<double>& values) {
+  return fmt::format("\n  rows: {}\n  cols: {}\n  data: [{}]\n", rows,
+                     values.size() / static_cast<size_t>(rows), Joined(values));
+}
+
+struct Lens {
+  const char* model;
+  std::vector<double> coefficients;
+};
+
+Lens LensOf(const Camera& camera) {
+  const Distortion& d = camera.distortion;
+  Lens lens{"plumb_bob", {d.k1, d.k2, d.p1, d.p2, d.k3}};
+  if (d.k4 == 0 && d.k5 == 0 && d.k6 == 0) return lens;
+  lens.model = "rational_polynomial";
+  lens.coefficients.insert(lens.coefficients.end(), {d.k4, d.k5, d.k6});
+  return lens;
+}
+
+std::vector<double> MatrixOf(const Camera& camera) {
+  return {camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1};
 }
 
 }  // namespace
@@ -159,18 +187,30 @@ Camera ReadCameraYaml(const std::filesystem::path& path) {
 
 void WriteCameraYaml(const Camera& camera, const std::filesystem::path& path) {
   if (const std::string flaw = camera.Validate(); !flaw.empty()) throw std::invalid_argument(flaw);
-  const Distortion& d = camera.distortion;
-  std::vector<double> coefficients = {d.k1, d.k2, d.p1, d.p2, d.k3};
-  if (d.k4 != 0 || d.k5 != 0 || d.k6 != 0)
-    coefficients.insert(coefficients.end(), {d.k4, d.k5, d.k6});
+  const Lens lens = LensOf(camera);
+  WriteFileAtomically(
+      path, fmt::format("%YAML:1.0\n---\nimage_width: {}\nimage_height: {}\ncamera_matrix: {}"
+                        "distortion_model: {}\ndistortion_coefficients: {}",
+                        camera.width_px, camera.height_px, OpenCvMatrix(3, MatrixOf(camera)),
+                        lens.model, OpenCvMatrix(1, lens.coefficients)));
+}
+
+void WriteCameraInfoYaml(const Camera& camera, const std::string& name,
+                         const std::filesystem::path& path) {
+  if (const std::string flaw = camera.Validate(); !flaw.empty()) throw std::invalid_argument(flaw);
+  const Lens lens = LensOf(camera);
+  std::string plain_name;
+  for (const char c : name) plain_name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
   WriteFileAtomically(
       path,
-      fmt::format(
-          "%YAML:1.0\n---\nimage_width: {}\nimage_height: {}\ncamera_matrix: {}"
-          "distortion_model: {}\ndistortion_coefficients: {}",
-          camera.width_px, camera.height_px,
-          Matrix(3, {camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1}),
-          coefficients.size() > 5 ? "rational_polynomial" : "plumb_bob", Matrix(1, coefficients)));
+      fmt::format("image_width: {}\nimage_height: {}\ncamera_name: {}\ncamera_matrix:{}"
+                  "distortion_model: {}\ndistortion_coefficients:{}rectification_matrix:{}"
+                  "projection_matrix:{}",
+                  camera.width_px, camera.height_px, plain_name.empty() ? "camera" : plain_name,
+                  RosMatrix(3, MatrixOf(camera)), lens.model, RosMatrix(1, lens.coefficients),
+                  RosMatrix(3, {1, 0, 0, 0, 1, 0, 0, 0, 1}),
+                  RosMatrix(3, {camera.fx_px, 0, camera.cx_px, 0, 0, camera.fy_px, camera.cy_px, 0,
+                                0, 0, 1, 0})));
 }
 
 }  // namespace poselift

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "src/camera.h"
 
@@ -22,5 +23,9 @@ Camera ReadCameraYaml(const std::filesystem::path& path);
 // kept. Throws InputError when it cannot, std::invalid_argument for a camera
 // that is not valid.
 void WriteCameraYaml(const Camera& camera, const std::filesystem::path& path);
+
+// The same as ROS's camera_info (camera_calibration_parsers), one camera, not rectified.
+void WriteCameraInfoYaml(const Camera& camera, const std::string& name,
+                         const std::filesystem::path& path);
 
 }  // namespace poselift

@@ -69,7 +69,7 @@ BoardPrint PrintOf(const AprilGrid& grid) {
 
 cv::Mat RenderBoard(const BoardPrint& print, const Camera& camera,
                     const Eigen::Isometry3d& cam_from_board) {
-  constexpr int kSamples = 4;  // across a pixel
+  constexpr int kSamples = 32;  // of a pixel, no two in one row or column
   const std::vector<Eigen::Vector2d> rays = CornerRays(camera);
   const Eigen::Isometry3d board_from_cam = cam_from_board.inverse();
   const auto level_of = [&](const Eigen::Vector2d& ray) {
@@ -84,12 +84,12 @@ cv::Mat RenderBoard(const BoardPrint& print, const Camera& camera,
     for (int x = 0; x < picture.cols; ++x) {
       const size_t corner = static_cast<size_t>(y) * stride + static_cast<size_t>(x);
       double sum = 0.0;
-      for (int i = 0; i < kSamples * kSamples; ++i) {
-        const double a = (i % kSamples + 0.5) / kSamples, b = (i / kSamples + 0.5) / kSamples;
+      for (int i = 0; i < kSamples; ++i) {
+        const double a = (i + 0.5) / kSamples, b = (i * 13 % kSamples + 0.5) / kSamples;
         sum += level_of((1 - b) * ((1 - a) * rays[corner] + a * rays[corner + 1]) +
                         b * ((1 - a) * rays[corner + stride] + a * rays[corner + stride + 1]));
       }
-      picture.at<uchar>(y, x) = cv::saturate_cast<uchar>(sum / (kSamples * kSamples));
+      picture.at<uchar>(y, x) = cv::saturate_cast<uchar>(sum / kSamples);
     }
   return picture;
 }

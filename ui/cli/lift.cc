@@ -21,7 +21,7 @@
 #include "lift/poses_to_motion.h"
 #include "lift/temporal/motion_codebook_file.h"
 #include "src/io/angles_csv.h"
-#include "src/io/camera_yaml.h"
+#include "src/io/camera_file.h"
 #include "src/io/image.h"
 #include "src/io/labels.h"
 #include "src/io/motion_file.h"
@@ -192,7 +192,7 @@ int Lift(const Options& options) {
   const bool is_motion = AreOneMotion(inputs.labels, options);
   if (is_motion) inputs.labels = WithPeopleBetween(inputs.labels);
   std::optional<Camera> camera;
-  if (!options.camera.empty()) camera = ReadCameraYaml(options.camera);
+  if (!options.camera.empty()) camera = ReadCamera(options.camera);
   const Dictionary dictionary = ReadDictionary(
       options.dictionary.empty() ? DefaultDictionaryPath() : fs::path(options.dictionary));
   std::optional<Truth> truth;
@@ -234,8 +234,10 @@ CLI::App* AddLift(CLI::App* app, Run* run) {
   command->add_option("--layout", options->layout, "Landmarks of the labels, or auto")
       ->capture_default_str();
   command->add_option("--dictionary", options->dictionary, "Default: the one that ships");
-  command->add_option("--camera", options->camera,
-                      "Camera file (YAML): lifts in true perspective, without lens distortion");
+  command->add_option(
+      "--camera", options->camera,
+      "Camera file (OpenCV, ROS, Kalibr, anipose): lifts in true perspective, without\n"
+      "lens distortion");
   command->add_option("--method", options->method, "How to lift")
       ->check(CLI::IsMember(MethodNames()))
       ->capture_default_str();

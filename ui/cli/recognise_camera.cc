@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "src/io/camera_yaml.h"
+#include "src/io/camera_file.h"
 #include "src/units.h"
 #include "ui/cli/recognisers.h"
 
@@ -27,15 +27,21 @@ void AddView(const Camera& camera, const char* name, const Eigen::Vector2d& a_px
 
 bool IsCamera(const std::filesystem::path& path, std::string_view head) {
   return HasEnding(path, ".yaml") || HasEnding(path, ".yml") ||
-         head.find("camera_matrix") != std::string_view::npos;
+         head.find("camera_matrix") != std::string_view::npos ||
+         (HasEnding(path, ".toml") && head.find("matrix") != std::string_view::npos);
 }
 
 Json DescribeCamera(const std::filesystem::path& path) {
-  const Camera camera = ReadCameraYaml(path);
-  Json facts = {{"width_px", camera.width_px},
-                {"height_px", camera.height_px},
-                {"focal_length_px", {camera.fx_px, camera.fy_px}},
-                {"principal_point_px", {camera.cx_px, camera.cy_px}}};
+  const Camera camera = ReadCamera(path);
+  Json facts = {{"format", CameraFormatName(FormatOfCameraFile(path))}};
+  if (const auto names = CameraNames(path); !names.front().empty()) {
+    facts["cameras"] = names;
+    facts["camera"] = names.front();
+  }
+  facts["width_px"] = camera.width_px;
+  facts["height_px"] = camera.height_px;
+  facts["focal_length_px"] = {camera.fx_px, camera.fy_px};
+  facts["principal_point_px"] = {camera.cx_px, camera.cy_px};
   // The edges of the picture; integers are pixel centres.
   AddView(camera, "view_width_deg", {-0.5, camera.cy_px}, {camera.width_px - 0.5, camera.cy_px},
           &facts);

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <filesystem>
+
+#include "calib/april_grid.h"
+
+namespace poselift {
+
+// Kalibr's description of a target: target_type aprilgrid, tagRows, tagCols, tagSize in
+// metres, tagSpacing; and tagFamily and firstId, which are ours (tag36h11 and 0 without).
+//
+// Throws InputError with file:line for what is no YAML, another target, a key that is missing
+// or no number, and a grid that is not valid.
+AprilGrid ReadAprilGridYaml(const std::filesystem::path& path);
+
+// Throws InputError when it cannot, std::invalid_argument for a grid that is not valid.
+void WriteAprilGridYaml(const AprilGrid& grid, const std::filesystem::path& path);
+
+}  // namespace poselift
