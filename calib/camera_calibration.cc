@@ -235,7 +235,7 @@ std::string CalibrationResult::BriefReport() const {
           views.size());
     case CalibrationStatus::kFocalUnknown:
       return fmt::format(
-          "the views leave the focal length open ({:.4g} +- {:.2g} px); tilt the board by 30 to 45 "
+          "the views leave the focal length open ({:.4g} ± {:.2g} px); tilt the board by 30 to 45 "
           "degrees, hold it nearer, and use more views",
           camera.fx_px, sigma[0]);
     case CalibrationStatus::kFailed:
@@ -244,8 +244,8 @@ std::string CalibrationResult::BriefReport() const {
       break;
   }
   return fmt::format(
-      "focal length {:.2f} +- {:.2f}, {:.2f} +- {:.2f} px, {:.3f} px rms over {} views",
-      camera.fx_px, sigma[0], camera.fy_px, sigma[1], rms_px, num_used());
+      "focal length {:.2f} ± {:.2f}, {:.2f} ± {:.2f} px, {:.3f} px rms over {} views", camera.fx_px,
+      sigma[0], camera.fy_px, sigma[1], rms_px, num_used());
 }
 
 CalibrationResult CalibrateCamera(const CalibrationBoard& board,

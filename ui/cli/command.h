@@ -22,6 +22,7 @@ inline constexpr int kUnreadableInput = 3;
 using Run = std::function<int()>;
 
 // One file a command.
+CLI::App* AddCalibrate(CLI::App* app, Run* run);
 CLI::App* AddConvert(CLI::App* app, Run* run);
 CLI::App* AddInfo(CLI::App* app, Run* run);
 CLI::App* AddLift(CLI::App* app, Run* run);

@@ -21,6 +21,7 @@ constexpr std::array kCommands = {
     AddCommand{poselift::cli::AddLift},     AddCommand{poselift::cli::AddTrain},
     AddCommand{poselift::cli::AddEvaluate}, AddCommand{poselift::cli::AddSmooth},
     AddCommand{poselift::cli::AddPlot},     AddCommand{poselift::cli::AddDoctor},
+    AddCommand{poselift::cli::AddCalibrate},
 };
 
 int RunGuarded(const Run& run) {

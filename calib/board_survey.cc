@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "calib/board_survey.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace poselift {
+namespace {
+
+std::string Text(const BoardCounts& counts) {
+  return fmt::format("{} x {}", counts.rows, counts.columns);
+}
+
+struct MostSeen {
+  BoardCounts counts;
+  int times = 0;
+};
+
+MostSeen MostSeenOf(const BoardSurvey& survey) {
+  MostSeen most;
+  for (const BoardAbsence& absence : survey.absences) {
+    if (!absence.seen) continue;
+    const int times = static_cast<int>(
+        std::count_if(survey.absences.begin(), survey.absences.end(),
+                      [&](const BoardAbsence& other) { return other.seen == absence.seen; }));
+    if (times > most.times) most = {*absence.seen, times};
+  }
+  return most;
+}
+
+bool IsPartOf(const BoardCounts& part, const BoardCounts& whole) {
+  return std::min(part.rows, part.columns) <= std::min(whole.rows, whole.columns) &&
+         std::max(part.rows, part.columns) <= std::max(whole.rows, whole.columns);
+}
+
+}  // namespace
+
+std::string FlawOfBoard(const BoardFinder& finder, const BoardSurvey& survey) {
+  const int num_mirrored = static_cast<int>(
+      std::count_if(survey.absences.begin(), survey.absences.end(),
+                    [](const BoardAbsence& absence) { return absence.is_mirrored; }));
+  if (num_mirrored > survey.num_found)
+    return "the pictures are mirrored: the board is seen only when they are turned left to right; "
+           "switch off the mirror of the camera or the program that took them";
+  const MostSeen most = MostSeenOf(survey);
+  if (most.times > survey.num_found) {
+    const BoardCounts said = finder.counts();
+    std::string text = fmt::format(
+        "I see {} {} in {} of {} pictures, you said {}", Text(most.counts), finder.counted(),
+        most.times, survey.absences.size() + static_cast<size_t>(survey.num_found), Text(said));
+    if (BoardCounts{most.counts.rows + 1, most.counts.columns + 1} == said)
+      text += "; count the inner corners, where four squares meet, not the squares";
+    else if (IsPartOf(most.counts, said))
+      text += "; if that is right, the rest of the board is hidden or outside of the pictures";
+    return text;
+  }
+  if (survey.num_found == 0)
+    return fmt::format(
+        "no board is visible in any of {} pictures: wanted a {}, whole, flat, sharp and evenly lit",
+        survey.absences.size(), finder.board().name);
+  return {};
+}
+
+std::string Describe(const BoardFinder& finder, const BoardAbsence& absence) {
+  if (absence.is_mirrored) return "mirrored";
+  if (!absence.seen) return "no board seen";
+  if (IsPartOf(*absence.seen, finder.counts()))
+    return fmt::format("only {} of {} {} seen, the rest is hidden or outside of the picture",
+                       Text(*absence.seen), Text(finder.counts()), finder.counted());
+  return fmt::format("{} {} seen, not {}", Text(*absence.seen), finder.counted(),
+                     Text(finder.counts()));
+}
+
+}  // namespace poselift
