@@ -13,21 +13,21 @@ using Meeting = RaySamples::Meeting;
 
 constexpr float kInk = 0.08f;  // of the paper's brightness
 
-// Along x the bits of i turned round, along y 7 i + 3 modulo 16.
+// Along x the bits of i turned round, along y 5 i + 3 modulo 16.
 std::array<Eigen::Vector2f, kStepsOfPixel> Steps() {
   std::array<Eigen::Vector2f, kStepsOfPixel> steps;
   for (int i = 0; i < kStepsOfPixel; ++i) {
     const int turned = (i & 1) << 3 | (i & 2) << 1 | (i & 4) >> 1 | (i & 8) >> 3;
-    const Eigen::Vector2f cell(turned, (7 * i + 3) % kStepsOfPixel);
+    const Eigen::Vector2f cell(turned, (5 * i + 3) % kStepsOfPixel);
     steps[i] = (cell.array() + 0.5f) / kStepsOfPixel - 0.5f;
   }
   return steps;
 }
 
-std::vector<Eigen::Vector2f> EveryStep(int first, int stride) {
+std::vector<Eigen::Vector2f> SomeSteps(int first, int count) {
   static const auto kSteps = Steps();
   std::vector<Eigen::Vector2f> steps;
-  for (int i = first % kStepsOfPixel; i < kStepsOfPixel; i += stride) steps.push_back(kSteps[i]);
+  for (int i = first; i < first + count; ++i) steps.push_back(kSteps[i % kStepsOfPixel]);
   return steps;
 }
 
@@ -95,18 +95,15 @@ void BodyPainter::AddPixel(const SeenBody& body, int x, int y, std::span<const M
   }
 }
 
-void BodyPainter::Add(const SeenBody& body, int first, int stride, float share,
+void BodyPainter::Add(const SeenBody& body, int first, int count, float share,
                       cv::Mat* picture) const {
   const cv::Rect part_px = body.Box_px();
-  const std::vector<Eigen::Vector2f> steps_px = EveryStep(first, stride);
-  // A ray at the centre tells where edges are; a single one is taken as it is.
-  const bool has_more = steps_px.size() > 1;
-  const std::vector<Eigen::Vector2f> one_step_px = {has_more ? Eigen::Vector2f(0, 0) : steps_px[0]};
-  RaySamples coarse(part_px, one_step_px);
+  const std::vector<Eigen::Vector2f> centre_px = {Eigen::Vector2f::Zero()};
+  RaySamples coarse(part_px, centre_px);
   coarse.Cast(body, rays_);
   int num_slots = 0;
-  std::vector<int> slots(part_px.area(), -1);
-  if (has_more) slots = SlotsOfEdges(body, coarse, part_px.size(), &num_slots);
+  const std::vector<int> slots = SlotsOfEdges(body, coarse, part_px.size(), &num_slots);
+  const std::vector<Eigen::Vector2f> steps_px = SomeSteps(first, count);
   RaySamples fine(part_px, steps_px, slots, num_slots);
   fine.Cast(body, rays_);
   for (int y = 0; y < part_px.height; ++y)
@@ -114,7 +111,7 @@ void BodyPainter::Add(const SeenBody& body, int first, int stride, float share,
       const int pixel = y * part_px.width + x;
       const bool is_fine = slots[pixel] >= 0;
       AddPixel(body, part_px.x + x, part_px.y + y,
-               is_fine ? fine.At(slots[pixel]) : coarse.At(pixel), is_fine ? steps_px : one_step_px,
+               is_fine ? fine.At(slots[pixel]) : coarse.At(pixel), is_fine ? steps_px : centre_px,
                share, picture);
     }
 }

@@ -17,8 +17,8 @@ struct Light {
   float ambient = 0.0f;            // brightness of what is turned away, 0 ... 1
 };
 
-// 16 steps from a pixel's centre that a picture's edges are smoothed by: each column and
-// each row of a 16 x 16 grid has one, in no order that a movement could follow.
+// Steps from a pixel's centre that edges are smoothed by: each column and each row of a
+// 16 x 16 grid has one. Four and eight that follow one another are evenly spread as well.
 inline constexpr int kStepsOfPixel = 16;
 
 // Paints a body over a background. Pixels with an edge or a tag are the mean of some rays,
@@ -29,9 +29,9 @@ class BodyPainter {
   BodyPainter(const RayMap& rays, const Light& light, const cv::Mat& background)
       : rays_(rays), light_(light), background_(background) {}
 
-  // Adds `share` of what the body changes of the background to *picture. The rays are
-  // those of every stride-th step, from the step `first` on.
-  void Add(const SeenBody& body, int first, int stride, float share, cv::Mat* picture) const;
+  // Adds `share` of what the body changes of the background to *picture. Rays are
+  // `count` steps from `first` on, past the last the first ones.
+  void Add(const SeenBody& body, int first, int count, float share, cv::Mat* picture) const;
 
  private:
   Eigen::Vector3f Color(const SeenBody& body, const RaySamples::Meeting& meeting,

@@ -188,6 +188,10 @@ RenderedFrame BodyRenderer::Render(const PoseAt& pose_at, double time_s) const {
   constexpr int kMostMoments = 32;
   const double blur_px = Blur_px(pose_at, time_s);
   const int moments = std::clamp(static_cast<int>(std::ceil(1.5 * blur_px)), 1, kMostMoments);
+  // Of edges that are smeared anyway few rays a moment are enough.
+  const int rays = moments > 7   ? kStepsOfPixel / 4
+                   : moments > 2 ? kStepsOfPixel / 2
+                                 : kStepsOfPixel;
   const Light light{
       (cam_from_world_.linear() * options_.towards_light_in_world.normalized()).cast<float>(),
       static_cast<float>(options_.ambient)};
@@ -195,7 +199,7 @@ RenderedFrame BodyRenderer::Render(const PoseAt& pose_at, double time_s) const {
   cv::Mat sum = background_.clone();
   for (int i = 0; i < moments; ++i) {
     const double at_s = time_s + options_.exposure_s * ((i + 0.5) / moments - 0.5);
-    painter.Add(SeenAt(pose_at(at_s)), i, moments, 1.0f / static_cast<float>(moments), &sum);
+    painter.Add(SeenAt(pose_at(at_s)), i * rays, rays, 1.0f / static_cast<float>(moments), &sum);
   }
   if (options_.noise_grey_levels > 0.0) {
     cv::Mat noise(sum.size(), sum.type());
