@@ -12,7 +12,7 @@ target_link_libraries(poselift_all INTERFACE poselift::src poselift::calib posel
 install(TARGETS poselift_src poselift_calib poselift_lift poselift_all EXPORT poseliftTargets)
 install(TARGETS poselift)
 install(DIRECTORY src calib lift DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/poselift
-  FILES_MATCHING PATTERN "*.h" PATTERN "eval" EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" PATTERN "eval" EXCLUDE PATTERN "testing" EXCLUDE)
 install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/poselift OPTIONAL
   FILES_MATCHING PATTERN "*.pldict" PATTERN "*.plmotion")
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -3,7 +3,8 @@
 //
 // Renders a motion with tags on the body: poselift_render_tags MOTION --out DIR. Writes
 // pictures or a video, the camera (camera.yaml) and the truth: the poses (poses.json) and
-// the tags (tags.json). For soak tests and the pictures of the documentation.
+// the tags (tags.json). For soak tests and the pictures of the documentation. With --detect
+// it says which share of the whole tags the detector finds.
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
@@ -14,10 +15,12 @@
 #include <exception>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <optional>
 #include <string>
 
+#include "calib/tag_detector.h"
 #include "calib/tag_family.h"
 #include "src/input_error.h"
 #include "src/io/atomic_file.h"
@@ -31,6 +34,7 @@
 #include "src/testing/studio.h"
 #include "src/testing/tag_placement.h"
 #include "src/units.h"
+#include "tests/support/detection_tally.h"
 
 namespace poselift {
 namespace {
@@ -44,14 +48,15 @@ struct Options {
   std::string motion, out, skeleton, camera, video, background, family = "tag36h11";
   double distance_m = 3.0, azimuth_deg = 0.0, size_mm = 80.0, rate_hz = 30.0, exposure_ms = 8.0,
          noise = 2.0, from_s = 0.0, seconds = 0.0;
-  bool around = false, on_the_spot = false, grey = false;
+  bool around = false, on_the_spot = false, grey = false, detect = false;
   std::uint64_t seed = 1;
 };
 
 void Declare(CLI::App* app, Options* options) {
   app->add_option("motion", options->motion, "BVH or AMC of a CMU skeleton")->required();
   app->add_option("--skeleton", options->skeleton, "ASF of an AMC");
-  app->add_option("--out", options->out, "folder to write to")->required();
+  app->add_option("--out", options->out, "folder to write to");
+  app->add_flag("--detect", options->detect, "print what the detector finds");
   app->add_option("--video", options->video,
                   "name of a video there (.avi, .mkv: Motion JPEG); else PNG");
   app->add_option("--camera", options->camera, "camera YAML instead of a 1280 x 720 webcam");
@@ -160,6 +165,7 @@ Json TagsJson(const FrameTruth& truth, const std::string& image) {
 class PictureWriter {
  public:
   PictureWriter(const Options& options, const Camera& camera) : options_(options) {
+    fs::create_directories(options.out);
     if (options.video.empty()) return;
     const fs::path path = fs::path(options.out) / options.video;
     video_.emplace(path.string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), options.rate_hz,
@@ -182,28 +188,64 @@ class PictureWriter {
   std::optional<cv::VideoWriter> video_;
 };
 
+// All that is written to the folder.
+class RunWriter {
+ public:
+  RunWriter(const Options& options, const Skeleton& skeleton, const testing::PlacedCamera& placed)
+      : out_(options.out),
+        camera_(placed.camera),
+        pictures_(options, placed.camera),
+        poses_(skeleton, placed.cam_from_world),
+        tags_({{"family", options.family}, {"frames", Json::array()}}) {}
+
+  void Add(const testing::RenderedFrame& frame) {
+    const std::string image =
+        pictures_.Write(static_cast<int>(tags_["frames"].size()), frame.picture);
+    poses_.Add(frame.truth, image);
+    tags_["frames"].push_back(TagsJson(frame.truth, image));
+  }
+
+  void Finish() const {
+    WriteCameraYaml(camera_, out_ / "camera.yaml");
+    WritePosesJson(poses_.poses(), out_ / "poses.json");
+    WriteFileAtomically(out_ / "tags.json", tags_.dump() + "\n");
+  }
+
+ private:
+  fs::path out_;
+  Camera camera_;
+  PictureWriter pictures_;
+  PosesOfTruth poses_;
+  Json tags_;
+};
+
+cv::Mat GreyOf(const cv::Mat& picture) {
+  cv::Mat grey = picture;
+  if (picture.channels() == 3) cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+  return grey;
+}
+
 void Run(const Options& options) {
   const Motion motion = ReadWalk(options);
   const testing::PlacedCamera placed = testing::CameraBefore(
       motion, options.distance_m, kRadFromDeg * options.azimuth_deg,
       options.camera.empty() ? testing::Webcam() : ReadCameraYaml(options.camera));
   const BodyRenderer renderer = MakeRenderer(options, motion.skeleton, placed);
-  const fs::path out = options.out;
-  fs::create_directories(out);
-  PictureWriter writer(options, placed.camera);
+  std::optional<RunWriter> writer;
+  if (!options.out.empty()) writer.emplace(options, motion.skeleton, placed);
+  TagDetector detector{TagFamily(options.family)};
+  testing::DetectionTally tally;
   const BodyRenderer::PoseAt pose_at = testing::PosesOver(motion);
   const double length_s = motion.frame_time_s * static_cast<double>(motion.frames.size() - 1);
-  PosesOfTruth poses(motion.skeleton, placed.cam_from_world);
-  Json tags = {{"family", options.family}, {"frames", Json::array()}};
   for (int i = 0; i / options.rate_hz <= length_s; ++i) {
     const testing::RenderedFrame frame = renderer.Render(pose_at, i / options.rate_hz);
-    const std::string image = writer.Write(i, frame.picture);
-    poses.Add(frame.truth, image);
-    tags["frames"].push_back(TagsJson(frame.truth, image));
+    if (writer) writer->Add(frame);
+    if (options.detect) tally.Add(frame.truth, detector.Detect(GreyOf(frame.picture)));
   }
-  WriteCameraYaml(placed.camera, out / "camera.yaml");
-  WritePosesJson(poses.poses(), out / "poses.json");
-  WriteFileAtomically(out / "tags.json", tags.dump() + "\n");
+  if (writer) writer->Finish();
+  if (options.detect)
+    fmt::print("whole {} found {} share {:.3f} wrong {} corner rms {:.3f} px\n", tally.visible,
+               tally.found, tally.Share(), tally.wrong, tally.CornerRms_px());
 }
 
 }  // namespace

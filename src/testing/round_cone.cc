@@ -59,8 +59,9 @@ SeenRoundCone::SeenRoundCone(const RoundCone& cone, const Eigen::Isometry3d& cam
 
 // With rho the distance from the axis, the cone's side is
 //   rho cos = r - y sin,   r sin <= y <= length + r_tip sin,
-// squared a quadratic in z. The body is the union of three convex ones, so the ray
-// enters it where it enters the first of them.
+// squared a quadratic in z. A ray steeper than the side (a > 0) enters the body where it
+// enters the endless cone, or through the sphere at that end. For others the first of all
+// that it may meet counts: the body is their union.
 float SeenRoundCone::Depth_m(const Ray& ray) const {
   const Eigen::Vector3f d =
       local_from_cam_.col(0) * ray.x() + local_from_cam_.col(1) * ray.y() + local_from_cam_.col(2);
@@ -69,23 +70,31 @@ float SeenRoundCone::Depth_m(const Ray& ray) const {
   const float a = c2 * (d.x() * d.x() + d.z() * d.z()) - sin_ * sin_ * d.y() * d.y();
   const float b = c2 * (eye_.x() * d.x() + eye_.z() * d.z()) + sin_ * d.y() * at_eye;
   const float h = b * b - a * eye_term_;
-  if (!(h >= 0)) return kMiss;
+  if (a > 0 && h < 0) return kMiss;
   const float low = start_radius_ * sin_, high = length_ + tip_radius_ * sin_;
-  const float root = std::sqrt(h);
+  const float root = std::sqrt(std::max(0.0f, h));
   float depth = kMiss;
-  for (const float z : {(-b - root) / a, (-b + root) / a}) {
-    const float y = eye_.y() + z * d.y();
-    if (z > 0 && y >= low && y <= high) depth = std::min(depth, z);
+  if (a > 0) {
+    const float z = (-b - root) / a, y = eye_.y() + z * d.y();
+    const bool is_at_start = y < low;
+    depth = !is_at_start && y <= high ? z
+            : is_at_start             ? SphereDepth(eye_, d, 0.0f, start_radius_)
+                                      : SphereDepth(eye_, d, length_, tip_radius_);
+  } else {
+    for (const float z : {(-b - root) / a, (-b + root) / a}) {
+      const float y = eye_.y() + z * d.y();
+      if (z > 0 && y >= low && y <= high) depth = std::min(depth, z);
+    }
+    depth = std::min({depth, SphereDepth(eye_, d, 0.0f, start_radius_),
+                      SphereDepth(eye_, d, length_, tip_radius_)});
   }
-  depth = std::min(depth, SphereDepth(eye_, d, 0.0f, start_radius_));
-  depth = std::min(depth, SphereDepth(eye_, d, length_, tip_radius_));
   return depth > 0 ? depth : kMiss;
 }
 
 Eigen::Vector3f SeenRoundCone::Normal(const Ray& ray, float depth_m) const {
   const Eigen::Vector3f at =
       eye_ + depth_m * (local_from_cam_ * Eigen::Vector3f(ray.x(), ray.y(), 1.0f));
-  const float rho = std::hypot(at.x(), at.z());
+  const float rho = std::sqrt(at.x() * at.x() + at.z() * at.z());
   // The sphere of the axis that touches the surface here.
   const float center = std::clamp(at.y() - rho * sin_ / cos_, 0.0f, length_);
   const Eigen::Vector3f normal(at.x(), at.y() - center, at.z());

@@ -99,6 +99,23 @@ TEST(SeenRoundConeTest, NormalsAreTheSlopeOfTheDistance) {
   }
 }
 
+// Less steep than the side: through either end or the side itself.
+TEST(SeenRoundConeTest, RaysAlongTheAxisEnterThroughWhatComesFirst) {
+  const RoundCone cone{{0, 0, 0}, {0, 0, 0.3}, 0.02, 0.12};
+  for (const double turn_rad : {0.0, 3.14159265}) {
+    Planted planted{cone, Eigen::Isometry3d(Eigen::Translation3d(0, 0, 2))};
+    planted.cam_from_cone.rotate(Eigen::AngleAxisd(turn_rad, Vector3d::UnitX()));
+    const SeenRoundCone seen(planted.cone, planted.cam_from_cone);
+    for (const float x : {0.0f, 0.008f, 0.02f, 0.035f, 0.05f}) {
+      const float depth_m = seen.Depth_m({x, 0});
+      ASSERT_TRUE(std::isfinite(depth_m)) << turn_rad << " " << x;
+      EXPECT_NEAR(Outside(planted, At({x, 0}, depth_m)), 0.0, 5e-5) << turn_rad << " " << x;
+      EXPECT_GT(Outside(planted, At({x, 0}, depth_m - 2e-3)), 0.0) << turn_rad << " " << x;
+    }
+    EXPECT_TRUE(std::isinf(seen.Depth_m({0.08f, 0})));
+  }
+}
+
 TEST(SeenRoundConeTest, OneSphereInsideTheOtherIsTheOther) {
   const Eigen::Isometry3d cam_from_cone(Eigen::Translation3d(0, 0, 2));
   for (const double tip_m : {0.0, 0.02}) {
