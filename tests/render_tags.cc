@@ -10,6 +10,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -60,17 +61,23 @@ void Declare(CLI::App* app, Options* options) {
   app->add_option("--video", options->video,
                   "name of a video there (.avi, .mkv: Motion JPEG); else PNG");
   app->add_option("--camera", options->camera, "camera YAML instead of a 1280 x 720 webcam");
-  app->add_option("--distance", options->distance_m, "m before the body")->capture_default_str();
+  app->add_option("--distance", options->distance_m, "m before the body")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   app->add_option("--azimuth", options->azimuth_deg, "degrees about the body, to its left");
   app->add_flag("--on-the-spot", options->on_the_spot, "a treadmill: keeps the distance");
   app->add_option("--from", options->from_s, "s of the motion that are skipped");
   app->add_option("--seconds", options->seconds, "0: to the end");
-  app->add_option("--rate", options->rate_hz, "pictures a second")->capture_default_str();
+  app->add_option("--rate", options->rate_hz, "pictures a second")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   app->add_option("--exposure", options->exposure_ms, "ms; 0: no blur")->capture_default_str();
   app->add_option("--noise", options->noise, "grey levels")->capture_default_str();
   app->add_option("--seed", options->seed, "of noise and background")->capture_default_str();
   app->add_option("--background", options->background, "a photo behind the body");
-  app->add_option("--size", options->size_mm, "of the tags, mm")->capture_default_str();
+  app->add_option("--size", options->size_mm, "of the tags, mm")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   app->add_option("--family", options->family, "of the tags")->capture_default_str();
   app->add_flag("--around", options->around, "tags on all sides");
   app->add_flag("--grey", options->grey, "grey pictures");

@@ -332,6 +332,26 @@ TEST(BodyRendererTest, ABodyAtTheCameraIsDrawnAsFarAsItIsSeen) {
   }
 }
 
+// Beyond its fold a lens has no ray for a pixel.
+TEST(BodyRendererTest, WhereTheLensShowsNothingTheBackgroundStays) {
+  const Camera folding{320, 240, 150, 150, 160, 120, {.k1 = -0.5}};
+  const cv::Mat dark(1, 1, CV_8U, cv::Scalar(7));
+  // So near that the body is behind every pixel of the middle row.
+  const BodyRenderer renderer = Before(Still(Standing()), 0.32, {.background = dark}, folding);
+  const RenderedFrame frame = renderer.Render(Always(Standing()), 0.0);
+  int shown = 0, dead = 0;
+  for (int x = 0; x < folding.width_px; ++x) {
+    const bool is_dead = !folding.Undistort(Vector2d(x, 120)).allFinite();
+    (is_dead ? dead : shown)++;
+    if (is_dead) {
+      EXPECT_EQ(frame.picture.at<uchar>(120, x), 7) << x;
+    }
+  }
+  EXPECT_GT(dead, 50);
+  EXPECT_GT(shown, 100);
+  EXPECT_GT(frame.picture.at<uchar>(120, 160), 7);
+}
+
 TEST(BodyRendererTest, BadInputIsRefused) {
   const Motion still = Still(Standing());
   EXPECT_THROW(Before(still, 3.0, {.exposure_s = -1.0}), std::invalid_argument);
