@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "src/capture/fourcc.h"
+
 namespace poselift {
 namespace {
 
@@ -66,15 +68,13 @@ std::optional<JpegHead> ReadHead(Bytes jpeg) {
   return head;
 }
 
-int Subsampling(FrameFormat format) {
-  return format == FrameFormat::kYuyv   ? TJSAMP_422
-         : format == FrameFormat::kNv12 ? TJSAMP_420
-                                        : TJSAMP_GRAY;
+int Subsampling(uint32_t fourcc) {
+  return fourcc == kYuyv ? TJSAMP_422 : fourcc == kNv12 ? TJSAMP_420 : TJSAMP_GRAY;
 }
 
 // The four standard tables, as TurboJPEG writes them into any picture.
 std::vector<uint8_t> StandardTables() {
-  JpegEncoder encoder(FrameFormat::kYuyv, {16, 16}, {});
+  JpegEncoder encoder({kYuyv, {16, 16}});
   std::vector<uint8_t> jpeg;
   encoder.Encode(std::vector<uint8_t>(16 * 16 * 2, 128), &jpeg);
   std::vector<uint8_t> tables;
@@ -121,53 +121,56 @@ constexpr Levels kChroma = Stretched(128.0, 128.0, 224.0);
 
 }  // namespace
 
-JpegEncoder::JpegEncoder(FrameFormat format, cv::Size size_px, const Options& options)
-    : format_(format), size_px_(size_px), options_(options), turbo_(nullptr, tjDestroy) {
-  const bool pairs_of_columns = format == FrameFormat::kYuyv || format == FrameFormat::kNv12;
-  if (size_px.width <= 0 || size_px.height <= 0 || (pairs_of_columns && size_px.width % 2 != 0) ||
-      (format == FrameFormat::kNv12 && size_px.height % 2 != 0))
-    throw std::invalid_argument("JpegEncoder: a size that no such frame has");
-  if (options.quality < 1 || options.quality > 100)
+JpegEncoder::JpegEncoder(const RawFormat& format, int quality)
+    : format_(format), quality_(quality), turbo_(nullptr, tjDestroy) {
+  const auto [width, height] = format.size_px;
+  const bool pairs_of_columns = format.fourcc == kYuyv || format.fourcc == kNv12;
+  if (!IsDecodable(format.fourcc) || width <= 0 || height <= 0 ||
+      (pairs_of_columns && width % 2 != 0) || (format.fourcc == kNv12 && height % 2 != 0))
+    throw std::invalid_argument("JpegEncoder: no such format, or not in this size");
+  if (quality < 1 || quality > 100)
     throw std::invalid_argument("JpegEncoder: quality must be 1 to 100");
-  if (format == FrameFormat::kMjpg) return;
+  if (!IsRaw()) return;
 
-  const int row_bytes = size_px.width * (format == FrameFormat::kYuyv ? 2 : 1);
-  if (options_.stride_bytes == 0) options_.stride_bytes = row_bytes;
-  if (options_.stride_bytes < row_bytes)
-    throw std::invalid_argument("JpegEncoder: the stride is shorter than a row");
-  const int rows = format == FrameFormat::kNv12 ? size_px.height * 3 / 2 : size_px.height;
-  // The gap behind the last row need not be there.
-  wanted_bytes_ = static_cast<size_t>(options_.stride_bytes) * static_cast<size_t>(rows - 1) +
+  const int row_bytes = width * (format.fourcc == kYuyv ? 2 : 1);
+  if (format_.bytes_per_line == 0) format_.bytes_per_line = row_bytes;
+  if (format_.bytes_per_line < row_bytes)
+    throw std::invalid_argument("JpegEncoder: lines are shorter than a row of pixels");
+  const int rows = format.fourcc == kNv12 ? height * 3 / 2 : height;
+  // The padding behind the last row need not be there.
+  wanted_bytes_ = static_cast<size_t>(format_.bytes_per_line) * static_cast<size_t>(rows - 1) +
                   static_cast<size_t>(row_bytes);
 
-  const int samples = Subsampling(format);
-  for (int i = 0; i < (format == FrameFormat::kGrey ? 1 : 3); ++i)
-    planes_[i].resize(tjPlaneSizeYUV(i, size_px.width, 0, size_px.height, samples));
-  compressed_.resize(tjBufSize(size_px.width, size_px.height, samples));
+  const int samples = Subsampling(format.fourcc);
+  for (int i = 0; i < (format.fourcc == kGrey ? 1 : 3); ++i)
+    planes_[i].resize(tjPlaneSizeYUV(i, width, 0, height, samples));
+  compressed_.resize(tjBufSize(width, height, samples));
   turbo_.reset(tjInitCompress());
   if (!turbo_) throw std::runtime_error("JpegEncoder: TurboJPEG does not start");
 }
 
+bool JpegEncoder::IsRaw() const { return format_.fourcc != kMjpg && format_.fourcc != kJpeg; }
+
 bool JpegEncoder::Encode(Bytes frame, std::vector<uint8_t>* jpeg) {
   jpeg->clear();
-  if (format_ == FrameFormat::kMjpg) return MakeWhole(frame, size_px_, jpeg);
+  if (!IsRaw()) return MakeWhole(frame, format_.size_px, jpeg);
   if (frame.size() < wanted_bytes_) return false;
   FillPlanes(frame.data());
   return Compress(jpeg);
 }
 
 void JpegEncoder::FillPlanes(const uint8_t* frame) {
-  const auto stride = static_cast<size_t>(options_.stride_bytes);
-  const auto width = static_cast<size_t>(size_px_.width);
-  const auto height = static_cast<size_t>(size_px_.height);
+  const auto stride = static_cast<size_t>(format_.bytes_per_line);
+  const auto width = static_cast<size_t>(format_.size_px.width);
+  const auto height = static_cast<size_t>(format_.size_px.height);
   uint8_t* y = planes_[0].data();
   uint8_t* u = planes_[1].data();
   uint8_t* v = planes_[2].data();
   for (size_t row = 0; row < height; ++row) {
     const uint8_t* from = frame + row * stride;
-    if (format_ == FrameFormat::kGrey) {
+    if (format_.fourcc == kGrey) {
       y = std::copy_n(from, width, y);
-    } else if (format_ == FrameFormat::kNv12) {
+    } else if (format_.fourcc == kNv12) {
       y = std::transform(from, from + width, y, [](uint8_t level) { return kLuma[level]; });
     } else {
       for (size_t i = 0; i < width; i += 2, from += 4) {
@@ -178,7 +181,7 @@ void JpegEncoder::FillPlanes(const uint8_t* frame) {
       }
     }
   }
-  if (format_ != FrameFormat::kNv12) return;
+  if (format_.fourcc != kNv12) return;
   for (size_t row = 0; row < height / 2; ++row) {
     const uint8_t* from = frame + (height + row) * stride;
     for (size_t i = 0; i < width; i += 2) {
@@ -192,9 +195,9 @@ bool JpegEncoder::Compress(std::vector<uint8_t>* jpeg) {
   const unsigned char* planes[] = {planes_[0].data(), planes_[1].data(), planes_[2].data()};
   unsigned char* to = compressed_.data();
   unsigned long length = compressed_.size();
-  if (tjCompressFromYUVPlanes(turbo_.get(), planes, size_px_.width, nullptr, size_px_.height,
-                              Subsampling(format_), &to, &length, options_.quality,
-                              TJFLAG_NOREALLOC) != 0)
+  if (tjCompressFromYUVPlanes(turbo_.get(), planes, format_.size_px.width, nullptr,
+                              format_.size_px.height, Subsampling(format_.fourcc), &to, &length,
+                              quality_, TJFLAG_NOREALLOC) != 0)
     throw std::runtime_error(std::string("JpegEncoder: ") + tjGetErrorStr2(turbo_.get()));
   jpeg->assign(to, to + length);
   return true;

@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <opencv2/core/types.hpp>
 #include <span>
 #include <vector>
+
+#include "src/capture/frame_decoder.h"
 
 namespace poselift {
 
@@ -15,14 +16,6 @@ namespace poselift {
 struct JpegFrame {
   double time_s = 0.0;  // when it was taken, of a clock that only goes forwards
   std::vector<uint8_t> bytes;
-};
-
-// How the bytes of a camera's frame are to be read; the names are V4L2's.
-enum class FrameFormat {
-  kMjpg,  // a JPEG picture
-  kYuyv,  // 4:2:2, packed
-  kNv12,  // 4:2:0, rows of Y, then rows of U and V by turns
-  kGrey,  // 8 bits
 };
 
 // Makes JPEG pictures that any program opens of a camera's frames.
@@ -36,14 +29,10 @@ enum class FrameFormat {
 // so that the picture has the colours that cv::cvtColor makes of the frame.
 class JpegEncoder {
  public:
-  struct Options {
-    int quality = 90;      // 1 to 100
-    int stride_bytes = 0;  // from row to row, of the first plane; 0: rows without gaps
-  };
-
-  // Throws std::invalid_argument: no size, an odd one where pixels share a colour
-  // (width of YUYV, both sides of NV12), a stride shorter than a row, no such quality.
-  JpegEncoder(FrameFormat format, cv::Size size_px, const Options& options);
+  // quality: 1 to 100, of what is compressed here.
+  // Throws std::invalid_argument: not a decodable format, no size, an odd one where pixels
+  // share a colour, lines shorter than a row, no such quality.
+  explicit JpegEncoder(const RawFormat& format, int quality = 90);
 
   // False, and no bytes, for a frame that is damaged: shorter than its size wants; MJPG
   // whose head is not whole or states another size. Its picture data is not looked at.
@@ -53,9 +42,10 @@ class JpegEncoder {
   void FillPlanes(const uint8_t* frame);
   bool Compress(std::vector<uint8_t>* jpeg);
 
-  FrameFormat format_;
-  cv::Size size_px_;
-  Options options_;
+  bool IsRaw() const;
+
+  RawFormat format_;
+  int quality_;
   size_t wanted_bytes_ = 0;  // of a raw frame
   std::unique_ptr<void, int (*)(void*)> turbo_;
   std::vector<uint8_t> planes_[3];

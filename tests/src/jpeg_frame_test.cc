@@ -7,6 +7,7 @@
 #include "src/io/jpeg_frame.h"
 
 #include <gtest/gtest.h>
+#include <linux/videodev2.h>
 
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
@@ -32,13 +33,14 @@ Bytes SmoothFrame(size_t length) {
 }
 
 struct RawKind {
-  FrameFormat format;
+  uint32_t fourcc;
   int rows_of_mat, type, to_bgr;
   const char* name;
 };
 
 class RawFrame : public ::testing::TestWithParam<RawKind> {
  protected:
+  RawFormat Format() const { return {GetParam().fourcc, kSize_px}; }
   int Rows() const { return GetParam().rows_of_mat; }
   int RowBytes() const { return kSize_px.width * static_cast<int>(CV_ELEM_SIZE(GetParam().type)); }
   Bytes Frame() const { return SmoothFrame(static_cast<size_t>(Rows() * RowBytes())); }
@@ -49,7 +51,7 @@ TEST_P(RawFrame, HasTheColoursOfCvtColor) {
   cv::Mat wanted;
   cv::cvtColor(cv::Mat(Rows(), kSize_px.width, GetParam().type, frame.data()), wanted,
                GetParam().to_bgr);
-  JpegEncoder encoder(GetParam().format, kSize_px, {.quality = 98});
+  JpegEncoder encoder(Format(), 98);
   Bytes jpeg;
   ASSERT_TRUE(encoder.Encode(frame, &jpeg));
   const cv::Mat found = cv::imdecode(jpeg, cv::IMREAD_COLOR);
@@ -65,14 +67,13 @@ TEST_P(RawFrame, IsReadInItsStride) {
   for (int row = 0; row < Rows(); ++row)
     std::copy_n(tight.begin() + row * RowBytes(), RowBytes(), wide.begin() + row * stride);
   Bytes jpeg, jpeg_of_wide;
-  ASSERT_TRUE(JpegEncoder(GetParam().format, kSize_px, {}).Encode(tight, &jpeg));
-  ASSERT_TRUE(JpegEncoder(GetParam().format, kSize_px, {.stride_bytes = stride})
-                  .Encode(wide, &jpeg_of_wide));
+  ASSERT_TRUE(JpegEncoder(Format()).Encode(tight, &jpeg));
+  ASSERT_TRUE(JpegEncoder({GetParam().fourcc, kSize_px, stride}).Encode(wide, &jpeg_of_wide));
   EXPECT_EQ(jpeg, jpeg_of_wide);
 }
 
 TEST_P(RawFrame, IsRefusedWhenShort) {
-  JpegEncoder encoder(GetParam().format, kSize_px, {});
+  JpegEncoder encoder(Format());
   Bytes frame = Frame(), jpeg;
   frame.resize(frame.size() + 100);  // more than wanted is padding
   EXPECT_TRUE(encoder.Encode(frame, &jpeg));
@@ -83,21 +84,22 @@ TEST_P(RawFrame, IsRefusedWhenShort) {
 }
 
 TEST_P(RawFrame, IsNotOfSuchSizeOrQuality) {
-  const FrameFormat format = GetParam().format;
-  EXPECT_THROW(JpegEncoder(format, {0, 48}, {}), std::invalid_argument);
-  EXPECT_THROW(JpegEncoder(format, kSize_px, {.quality = 0}), std::invalid_argument);
-  EXPECT_THROW(JpegEncoder(format, kSize_px, {.stride_bytes = 63}), std::invalid_argument);
-  if (format != FrameFormat::kGrey) {
-    EXPECT_THROW(JpegEncoder(format, {63, 48}, {}), std::invalid_argument);
+  const uint32_t fourcc = GetParam().fourcc;
+  EXPECT_THROW(JpegEncoder({fourcc, {0, 48}}), std::invalid_argument);
+  EXPECT_THROW(JpegEncoder(Format(), 0), std::invalid_argument);
+  EXPECT_THROW(JpegEncoder({fourcc, kSize_px, 63}), std::invalid_argument);
+  EXPECT_THROW(JpegEncoder({V4L2_PIX_FMT_RGB24, kSize_px}), std::invalid_argument);
+  if (fourcc != V4L2_PIX_FMT_GREY) {
+    EXPECT_THROW(JpegEncoder({fourcc, {63, 48}}), std::invalid_argument);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, RawFrame,
-                         ::testing::Values(RawKind{FrameFormat::kYuyv, kSize_px.height, CV_8UC2,
+                         ::testing::Values(RawKind{V4L2_PIX_FMT_YUYV, kSize_px.height, CV_8UC2,
                                                    cv::COLOR_YUV2BGR_YUYV, "Yuyv"},
-                                           RawKind{FrameFormat::kNv12, kSize_px.height * 3 / 2,
+                                           RawKind{V4L2_PIX_FMT_NV12, kSize_px.height * 3 / 2,
                                                    CV_8UC1, cv::COLOR_YUV2BGR_NV12, "Nv12"},
-                                           RawKind{FrameFormat::kGrey, kSize_px.height, CV_8UC1,
+                                           RawKind{V4L2_PIX_FMT_GREY, kSize_px.height, CV_8UC1,
                                                    cv::COLOR_GRAY2BGR, "Grey"}),
                          [](const auto& kind) { return kind.param.name; });
 
@@ -128,7 +130,7 @@ Bytes CutTables(Bytes* jpeg) {
 // Of what Encode makes of it; empty when it refuses.
 Bytes Encoded(const Bytes& frame, cv::Size size_px = kSize_px) {
   Bytes jpeg;
-  const bool whole = JpegEncoder(FrameFormat::kMjpg, size_px, {}).Encode(frame, &jpeg);
+  const bool whole = JpegEncoder({V4L2_PIX_FMT_MJPEG, size_px}).Encode(frame, &jpeg);
   EXPECT_EQ(whole, !jpeg.empty());
   return jpeg;
 }

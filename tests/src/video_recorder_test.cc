@@ -8,6 +8,7 @@
 #include "src/io/video_recorder.h"
 
 #include <gtest/gtest.h>
+#include <linux/videodev2.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -179,7 +180,7 @@ TEST(VideoRecorder, DamagedFramesLeaveTheGoodOnes) {
   const JpegFrame source = Frame(3, 0.0);
   const auto damaged =
       testing::DamagedCopies({source.bytes.begin(), source.bytes.end()}, 300, &rng);
-  JpegEncoder encoder(FrameFormat::kMjpg, kSize_px, {});
+  JpegEncoder encoder({V4L2_PIX_FMT_MJPEG, kSize_px});
   VideoRecorder recorder(path, kSize_px);
   const int num_good = static_cast<int>(damaged.size());
   int num_damaged = 0;
