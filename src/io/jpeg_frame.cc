@@ -69,12 +69,12 @@ std::optional<JpegHead> ReadHead(Bytes jpeg) {
 }
 
 int Subsampling(uint32_t fourcc) {
-  return fourcc == kYuyv ? TJSAMP_422 : fourcc == kNv12 ? TJSAMP_420 : TJSAMP_GRAY;
+  return fourcc == kFourccYuyv ? TJSAMP_422 : fourcc == kFourccNv12 ? TJSAMP_420 : TJSAMP_GRAY;
 }
 
 // The four standard tables, as TurboJPEG writes them into any picture.
 std::vector<uint8_t> StandardTables() {
-  JpegEncoder encoder({kYuyv, {16, 16}});
+  JpegEncoder encoder({kFourccYuyv, {16, 16}});
   std::vector<uint8_t> jpeg;
   encoder.Encode(std::vector<uint8_t>(16 * 16 * 2, 128), &jpeg);
   std::vector<uint8_t> tables;
@@ -124,32 +124,34 @@ constexpr Levels kChroma = Stretched(128.0, 128.0, 224.0);
 JpegEncoder::JpegEncoder(const RawFormat& format, int quality)
     : format_(format), quality_(quality), turbo_(nullptr, tjDestroy) {
   const auto [width, height] = format.size_px;
-  const bool pairs_of_columns = format.fourcc == kYuyv || format.fourcc == kNv12;
+  const bool pairs_of_columns = format.fourcc == kFourccYuyv || format.fourcc == kFourccNv12;
   if (!IsDecodable(format.fourcc) || width <= 0 || height <= 0 ||
-      (pairs_of_columns && width % 2 != 0) || (format.fourcc == kNv12 && height % 2 != 0))
+      (pairs_of_columns && width % 2 != 0) || (format.fourcc == kFourccNv12 && height % 2 != 0))
     throw std::invalid_argument("JpegEncoder: no such format, or not in this size");
   if (quality < 1 || quality > 100)
     throw std::invalid_argument("JpegEncoder: quality must be 1 to 100");
   if (!IsRaw()) return;
 
-  const int row_bytes = width * (format.fourcc == kYuyv ? 2 : 1);
+  const int row_bytes = width * (format.fourcc == kFourccYuyv ? 2 : 1);
   if (format_.bytes_per_line == 0) format_.bytes_per_line = row_bytes;
   if (format_.bytes_per_line < row_bytes)
     throw std::invalid_argument("JpegEncoder: lines are shorter than a row of pixels");
-  const int rows = format.fourcc == kNv12 ? height * 3 / 2 : height;
+  const int rows = format.fourcc == kFourccNv12 ? height * 3 / 2 : height;
   // The padding behind the last row need not be there.
   wanted_bytes_ = static_cast<size_t>(format_.bytes_per_line) * static_cast<size_t>(rows - 1) +
                   static_cast<size_t>(row_bytes);
 
   const int samples = Subsampling(format.fourcc);
-  for (int i = 0; i < (format.fourcc == kGrey ? 1 : 3); ++i)
+  for (int i = 0; i < (format.fourcc == kFourccGrey ? 1 : 3); ++i)
     planes_[i].resize(tjPlaneSizeYUV(i, width, 0, height, samples));
   compressed_.resize(tjBufSize(width, height, samples));
   turbo_.reset(tjInitCompress());
   if (!turbo_) throw std::runtime_error("JpegEncoder: TurboJPEG does not start");
 }
 
-bool JpegEncoder::IsRaw() const { return format_.fourcc != kMjpg && format_.fourcc != kJpeg; }
+bool JpegEncoder::IsRaw() const {
+  return format_.fourcc != kFourccMjpg && format_.fourcc != kFourccJpeg;
+}
 
 bool JpegEncoder::Encode(Bytes frame, std::vector<uint8_t>* jpeg) {
   jpeg->clear();
@@ -168,9 +170,9 @@ void JpegEncoder::FillPlanes(const uint8_t* frame) {
   uint8_t* v = planes_[2].data();
   for (size_t row = 0; row < height; ++row) {
     const uint8_t* from = frame + row * stride;
-    if (format_.fourcc == kGrey) {
+    if (format_.fourcc == kFourccGrey) {
       y = std::copy_n(from, width, y);
-    } else if (format_.fourcc == kNv12) {
+    } else if (format_.fourcc == kFourccNv12) {
       y = std::transform(from, from + width, y, [](uint8_t level) { return kLuma[level]; });
     } else {
       for (size_t i = 0; i < width; i += 2, from += 4) {
@@ -181,7 +183,7 @@ void JpegEncoder::FillPlanes(const uint8_t* frame) {
       }
     }
   }
-  if (format_.fourcc != kNv12) return;
+  if (format_.fourcc != kFourccNv12) return;
   for (size_t row = 0; row < height / 2; ++row) {
     const uint8_t* from = frame + (height + row) * stride;
     for (size_t i = 0; i < width; i += 2) {

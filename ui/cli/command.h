@@ -30,6 +30,7 @@ CLI::App* AddPlot(CLI::App* app, Run* run);
 CLI::App* AddSmooth(CLI::App* app, Run* run);
 CLI::App* AddTrain(CLI::App* app, Run* run);
 CLI::App* AddEvaluate(CLI::App* app, Run* run);
+CLI::App* AddTrack(CLI::App* app, Run* run);
 CLI::App* AddDoctor(CLI::App* app, Run* run);
 
 }  // namespace poselift::cli

@@ -17,11 +17,11 @@ using poselift::cli::Run;
 using AddCommand = CLI::App* (*)(CLI::App*, Run*);
 
 constexpr std::array kCommands = {
-    AddCommand{poselift::cli::AddConvert},  AddCommand{poselift::cli::AddInfo},
-    AddCommand{poselift::cli::AddLift},     AddCommand{poselift::cli::AddTrain},
-    AddCommand{poselift::cli::AddEvaluate}, AddCommand{poselift::cli::AddSmooth},
-    AddCommand{poselift::cli::AddPlot},     AddCommand{poselift::cli::AddDoctor},
-    AddCommand{poselift::cli::AddCalibrate},
+    AddCommand{poselift::cli::AddConvert},   AddCommand{poselift::cli::AddInfo},
+    AddCommand{poselift::cli::AddLift},      AddCommand{poselift::cli::AddTrain},
+    AddCommand{poselift::cli::AddEvaluate},  AddCommand{poselift::cli::AddSmooth},
+    AddCommand{poselift::cli::AddPlot},      AddCommand{poselift::cli::AddDoctor},
+    AddCommand{poselift::cli::AddCalibrate}, AddCommand{poselift::cli::AddTrack},
 };
 
 int RunGuarded(const Run& run) {
