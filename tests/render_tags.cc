@@ -3,8 +3,9 @@
 //
 // Renders a motion with tags on the body: poselift_render_tags MOTION --out DIR. Writes
 // pictures or a video, the camera (camera.yaml) and the truth: the poses (poses.json) and
-// the tags (tags.json). For soak tests and the pictures of the documentation. With --detect
-// it says which share of the whole tags the detector finds.
+// the tags as they are seen (tags.json) and as they are worn (tags.toml). For soak tests and the
+// pictures of the documentation. With --detect it says which share of the whole tags the detector
+// finds.
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
@@ -25,6 +26,7 @@
 #include "calib/tag_family.h"
 #include "src/input_error.h"
 #include "src/io/atomic_file.h"
+#include "src/io/body_tags_toml.h"
 #include "src/io/camera_yaml.h"
 #include "src/io/image.h"
 #include "src/io/motion_file.h"
@@ -97,14 +99,26 @@ Motion ReadWalk(const Options& options) {
   return options.on_the_spot ? testing::OnTheSpot(std::move(motion)) : motion;
 }
 
+// With the lengths of the body's bones.
+BodyTags Dress(const Options& options, const Skeleton& skeleton) {
+  const TagFamily family(options.family);
+  const double cells = family.cells(), cells_of_size = family.cells_of_size();
+  BodyTags tags = testing::DefaultTagPlacement(skeleton, {.size_m = 1e-3 * options.size_mm,
+                                                          .paper_per_size = cells / cells_of_size,
+                                                          .around = options.around});
+  tags.family = options.family;
+  for (int j = 1; j < kNumJoints; ++j) {
+    const auto bone = skeleton.FindBone(Joints()[static_cast<size_t>(j)].cmu_bone);
+    const double length_m = skeleton.bones[static_cast<size_t>(*bone)].tip_m.norm();
+    tags.bone_lengths_m.emplace_back(Joints()[static_cast<size_t>(j)].name, length_m);
+  }
+  return tags;
+}
+
 BodyRenderer MakeRenderer(const Options& options, const Skeleton& skeleton,
                           const testing::PlacedCamera& placed) {
   const TagFamily family(options.family);
-  const double cells = family.cells(), cells_of_size = family.cells_of_size();
-  const BodyTags tags =
-      testing::DefaultTagPlacement(skeleton, {.size_m = 1e-3 * options.size_mm,
-                                              .paper_per_size = cells / cells_of_size,
-                                              .around = options.around});
+  const BodyTags tags = Dress(options, skeleton);
   testing::RenderOptions render{.exposure_s = 1e-3 * options.exposure_ms,
                                 .noise_grey_levels = options.noise,
                                 .seed = options.seed,
@@ -200,6 +214,7 @@ class RunWriter {
  public:
   RunWriter(const Options& options, const Skeleton& skeleton, const testing::PlacedCamera& placed)
       : out_(options.out),
+        worn_(Dress(options, skeleton)),
         camera_(placed.camera),
         pictures_(options, placed.camera),
         poses_(skeleton, placed.cam_from_world),
@@ -215,11 +230,13 @@ class RunWriter {
   void Finish() const {
     WriteCameraYaml(camera_, out_ / "camera.yaml");
     WritePosesJson(poses_.poses(), out_ / "poses.json");
+    WriteBodyTags(worn_, out_ / "tags.toml");
     WriteFileAtomically(out_ / "tags.json", tags_.dump() + "\n");
   }
 
  private:
   fs::path out_;
+  BodyTags worn_;
   Camera camera_;
   PictureWriter pictures_;
   PosesOfTruth poses_;
