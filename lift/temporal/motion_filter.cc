@@ -96,6 +96,11 @@ void MotionFilter::Measure(const SkeletonPose& pose, const FeatureVector& varian
   LearnFloor(pose, frame.dt_s);
 }
 
+void MotionFilter::StartAnew() {
+  frames_.back().kind = Kind::kNotKnown;
+  frames_.back().dt_s = 0.0;
+}
+
 std::optional<SkeletonPose> MotionFilter::Ahead(double time_s) const {
   const Frame* newest = !frames_.empty() ? &frames_.back()
                         : newest_taken_  ? &*newest_taken_

@@ -61,6 +61,8 @@ class MotionFilter {
   // Of the newest frame: its pose and the variances of that in the light of what was
   // foretold too; without that, as they were measured.
   void Measure(const SkeletonPose& pose, const FeatureVector& variances);
+  // What was foretold of the newest frame was wrong: Measure starts the filter anew.
+  void StartAnew();
   // Where the body will be by the newest rates, at a time soon after the newest frame;
   // nothing when that is not known.
   std::optional<SkeletonPose> Ahead(double time_s) const;

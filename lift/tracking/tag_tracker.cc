@@ -20,8 +20,12 @@ namespace {
 
 constexpr int kMaxIterations = 30;
 constexpr double kFunctionTolerance = 1e-4;
-constexpr double kPull_per_rad = 0.02;    // as RefinementOptions::pull_per_rad
-constexpr double kOutlier = 7.0;          // standard deviations of all corners together
+constexpr double kPull_per_rad = 0.5;  // to rest, in a second: of dofs that nothing shows
+// Squared standard deviations of all corners of a tag, the mean over tags: so far off, other
+// poses are tried, now and then.
+constexpr double kMisfit = 20.0, kBetweenAnew_s = 0.3;
+constexpr double kLimitStiffness_per_rad = 10.0;  // as that of sequences
+constexpr double kOutlier = 7.0;                  // standard deviations of all corners together
 constexpr double kLeastFacing = 0.2;      // cosine: a tag that is seen more from the side is lost
 constexpr double kLeanUnknown_rad = 0.7;  // of a tag that may lean either way
 
@@ -44,6 +48,28 @@ FeatureVector FeatureVariances(const Eigen::MatrixXd& covariance, const Skeleton
   variances << covariance.diagonal().tail<kNumAngles>(), place.y(), turn.x(), turn.z(), place.x(),
       place.z(), turn.y();
   return variances;
+}
+
+// Of elbows and knees alone, which bend one way. Captured motion leaves the limits of the
+// others often, and tags see it.
+DofLimits HingeLimits(const Articulation& body) {
+  DofLimits limits(body, false);
+  const DofLimits all(body, true);
+  for (size_t b = 0; b < body.skeleton.bones.size(); ++b) {
+    if (body.skeleton.bones[b].dofs.size() != 1) continue;
+    const int d = body.dof_starts[b];
+    limits.lower[d] = all.lower[d];
+    limits.upper[d] = all.upper[d];
+  }
+  return limits;
+}
+
+// The mean over tags of rho(sigmas^2), as the loss has it.
+double Misfit(const std::vector<TrackedTag>& tags, double loss) {
+  double sum = 0.0;
+  for (const TrackedTag& tag : tags)
+    sum += loss * loss * std::log1p(tag.sigmas * tag.sigmas / (loss * loss));
+  return tags.empty() ? 0.0 : sum / static_cast<double>(tags.size());
 }
 
 int BoneOf(const Articulation& body, const BodyTag& tag) {
@@ -108,9 +134,15 @@ void TagTracker::Add(double time_s, const std::vector<TagSighting>& sightings) {
   std::optional<Solution> solution;
   if (!seen.empty() && prediction) {
     solution = SolveOn(seen, *prediction, dt_s);
-    // Where most tags speak against what was foretold, it was wrong.
-    if (!solution || 2 * NumBelieved(solution->tags) < std::ssize(solution->tags))
-      if (auto anew = SolveAnew(seen)) solution = std::move(anew);
+    if ((!solution || solution->misfit > kMisfit) && time_s - last_anew_s_ > kBetweenAnew_s) {
+      // Where tags speak against what was foretold, that may have been wrong.
+      last_anew_s_ = time_s;
+      auto anew = SolveAnew(seen);
+      if (anew && (!solution || 2.0 * anew->misfit < solution->misfit)) {
+        solution = std::move(anew);
+        filter_.StartAnew();
+      }
+    }
   } else if (!seen.empty()) {
     solution = SolveAnew(seen);
   }
@@ -219,21 +251,21 @@ std::vector<SkeletonPose> TagTracker::FirstPoses(const std::vector<Seen>& seen) 
 std::optional<TagTracker::Solution> TagTracker::SolveOn(const std::vector<Seen>& seen,
                                                         const MotionFilter::Prediction& prediction,
                                                         double dt_s) const {
-  const double prior_weight = options_.prior_weight * std::sqrt(dt_s);
-  auto solution = Solve(seen, prediction.pose, prediction, prior_weight, options_.loss);
+  const double share = std::sqrt(std::min(1.0, dt_s));
+  auto solution = Solve(seen, prediction.pose, prediction, share, options_.loss);
   if (solution && NumBelieved(solution->tags) == std::ssize(solution->tags)) return solution;
   // A tag that is far off may be wrong, or just too far for its loss: with all believed
   // at first it is found out.
-  const auto firm = Solve(seen, prediction.pose, prediction, prior_weight, 0.0);
+  const auto firm = Solve(seen, prediction.pose, prediction, share, 0.0);
   if (!firm) return solution;
-  auto other = Solve(seen, firm->pose, prediction, prior_weight, options_.loss);
+  auto other = Solve(seen, firm->pose, prediction, share, options_.loss);
   return other && (!solution || other->cost < solution->cost) ? other : solution;
 }
 
 std::optional<TagTracker::Solution> TagTracker::SolveAnew(const std::vector<Seen>& seen) const {
   std::optional<Solution> best;
   for (const SkeletonPose& start : FirstPoses(seen))
-    if (auto solution = Solve(seen, start, std::nullopt, options_.prior_weight, options_.loss))
+    if (auto solution = Solve(seen, start, std::nullopt, 1.0, options_.loss))
       if (!best || solution->cost < best->cost) best = std::move(solution);
   return best;
 }
@@ -292,19 +324,19 @@ std::vector<TrackedTag> TagTracker::Judge(const std::vector<Seen>& seen,
                      picture.size_m) -
           picture.corners_px;
       tracked.error_px = off_px.norm() / 2.0;
-      tracked.is_believed =
-          (picture.whitening * Eigen::Map<const Eigen::Matrix<double, 8, 1>>(off_px.data()))
-              .norm() < kOutlier;
+      tracked.sigmas =
+          (picture.whitening * Eigen::Map<const Eigen::Matrix<double, 8, 1>>(off_px.data())).norm();
     } else if (!tag.sighting->poses.empty()) {
       const PointInSpace point = InSpace(tag, frames);
       const Eigen::Vector3d x_in_cam_m = CamFromBone(frames, point.bone) * point.x_in_bone_m;
       const Eigen::Vector3d seen_in_cam_m = view_.cam_from_world * point.x_in_world_m;
       tracked.error_px =
           view_.focal_px * (x_in_cam_m.hnormalized() - seen_in_cam_m.hnormalized()).norm();
-      tracked.is_believed =
+      tracked.sigmas =
           (point.whitening * (view_.cam_from_world.inverse() * x_in_cam_m - point.x_in_world_m))
-              .norm() < kOutlier;
+              .norm();
     }
+    tracked.is_believed = tracked.sigmas < kOutlier;
     tags.push_back(tracked);
   }
   return tags;
@@ -324,23 +356,28 @@ void TagTracker::AddTags(const std::vector<Seen>& seen, const SkeletonPose& star
 
 std::optional<TagTracker::Solution> TagTracker::Solve(
     const std::vector<Seen>& seen, const SkeletonPose& start,
-    const std::optional<MotionFilter::Prediction>& prediction, double prior_weight,
-    double loss) const {
-  // Captured motion leaves the limits of its dofs often, and tags see it.
-  PoseProblem problem(body_, start, {DofLimits(body_, false), start.dofs, kPull_per_rad, 0.0});
+    const std::optional<MotionFilter::Prediction>& prediction, double share, double loss) const {
+  const DofLimits limits = HingeLimits(body_);
+  PoseProblem problem(body_, start,
+                      {limits, limits.Clamp(Eigen::VectorXd::Zero(body_.num_dofs)),
+                       share * kPull_per_rad, kLimitStiffness_per_rad});
   AddTags(seen, start, loss, &problem);
   if (prediction) {
     const FeatureVector whitening = prediction->variances.cwiseSqrt().cwiseInverse();
     problem.AddPoseTerm(MakePredictionCost({prediction->pose, whitening.asDiagonal()}, 1.0));
   }
   const PosePrior& prior = lifter_.dictionary().prior;
+  const double prior_weight = share * options_.prior_weight;
   const PosePrior weighted{prior.mean_m, prior_weight * prior.whitening};
   if (!prior.Empty() && prior_weight > 0.0) problem.AddDofsTerm(MakePriorCost(standard_, weighted));
   if (!IsUsable(problem.Solve(kMaxIterations, kFunctionTolerance).status)) return std::nullopt;
   const Eigen::MatrixXd covariance = problem.Covariance();
   if (covariance.size() == 0) return std::nullopt;
   const SkeletonPose& pose = problem.pose();
-  return Solution{pose, FeatureVariances(covariance, pose), problem.Cost(), Judge(seen, pose)};
+  Solution solution{pose, FeatureVariances(covariance, pose), problem.Cost()};
+  solution.tags = Judge(seen, pose);
+  solution.misfit = Misfit(solution.tags, options_.loss);
+  return solution;
 }
 
 }  // namespace poselift

@@ -25,6 +25,7 @@ class PoseProblem;
 // + sum_tags rho(|W (x_joint(q) - x)|^2)                tags by a joint, at their pose
 // + |q - foretold|^2 by its variances                   the motion model (motion_filter.h)
 // + dt prior_weight^2 |whitening (f_0(q) - mean)|^2     how common poses are
+// + dt pull^2 |dofs|^2                                  what nothing shows goes to rest
 //
 // over q, by Levenberg-Marquardt; its curvature says how sure the pose is, and both go
 // back to the filter. Corners do not choose between the two ways a tag may lean, the
@@ -44,6 +45,7 @@ struct TrackedTag {
   int id = 0;
   bool is_ambiguous = false;
   bool is_believed = true;
+  double sigmas = 0.0;    // how far it is off, in standard deviations of all its corners
   double error_px = 0.0;  // of its corners to the pose, RMS
 };
 
@@ -86,14 +88,15 @@ class TagTracker {
     SkeletonPose pose;
     FeatureVector variances;
     double cost = 0.0;
-    std::vector<TrackedTag> tags;
+    std::vector<TrackedTag> tags = {};
+    double misfit = 0.0;  // of the tags
   };
 
   std::vector<Seen> Known(const std::vector<TagSighting>& seen) const;
   std::vector<SkeletonPose> FirstPoses(const std::vector<Seen>& seen) const;
   std::optional<Solution> Solve(const std::vector<Seen>& seen, const SkeletonPose& start,
                                 const std::optional<MotionFilter::Prediction>& prediction,
-                                double prior_weight, double loss) const;
+                                double share, double loss) const;
   std::optional<Solution> SolveOn(const std::vector<Seen>& seen,
                                   const MotionFilter::Prediction& prediction, double dt_s) const;
   std::optional<Solution> SolveAnew(const std::vector<Seen>& seen) const;
@@ -112,7 +115,7 @@ class TagTracker {
   TagTrackerOptions options_;
   std::vector<Worn> worn_;
   MotionFilter filter_;
-  double last_s_ = 0.0;
+  double last_s_ = 0.0, last_anew_s_ = -1.0;
   std::deque<std::vector<TrackedTag>> waiting_;
 };
 
