@@ -24,7 +24,7 @@ namespace poselift {
 struct TagFitOptions {
   int num_frames = 100;  // that are adjusted together, as different as can be
   int rounds = 2;        // of tracking and adjusting
-  double corner_sigma_px = 0.25;
+  double corner_sigma_px = 0.15;
   double loss = 6.0;          // Cauchy, as in TagTrackerOptions
   double prior_weight = 0.1;  // of the pose prior
   // What a mount is never known better than: skin moves on bones.

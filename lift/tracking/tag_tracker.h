@@ -33,7 +33,7 @@ class PoseProblem;
 // (PhotoLifter), and each pose that comes of it is a start.
 struct TagTrackerOptions {
   MotionFilterOptions filter{.latency_s = 0.0, .variance_scale = 15.0};
-  double corner_sigma_px = 0.25;
+  double corner_sigma_px = 0.15;
   double prior_weight = 1.5;
   double loss = 6.0;   // Cauchy: standard deviations of all a tag's corners together
   int least_tags = 3;  // for a pose out of nothing
