@@ -22,6 +22,7 @@
 
 #include "src/input_error.h"
 #include "tests/support/child.h"
+#include "tests/support/mutation.h"
 #include "tests/support/support.h"
 
 namespace poselift {
@@ -193,7 +194,7 @@ class FullDisk : public ::testing::TestWithParam<bool> {};
 
 TEST_P(FullDisk, LeavesWhatStoodThereAndAppendsAgainWhenThereIsPlace) {
   const fs::path path = ScratchDir() / "a.txt";
-  for (const rlim_t limit : {20000u, 20016u, 22222u, 25019u}) {
+  for (const rlim_t limit : {20000u, 20016u, 20017u, 22222u, 25018u}) {
     const Child child([&](Child::Shared* shared) {
       if (GetParam()) ForbidExchange();
       ::signal(SIGXFSZ, SIG_IGN);
@@ -216,7 +217,7 @@ TEST_P(FullDisk, LeavesWhatStoodThereAndAppendsAgainWhenThereIsPlace) {
     const int status = child.Wait();
     if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "no seccomp filters here";
     EXPECT_EQ(status, 0);
-    const int fitting = limit >= 25019 ? 5 : limit >= 20016 ? 4 : 3;
+    const int fitting = static_cast<int>((limit - 13) / 5001);  // head and tail are 13
     EXPECT_EQ(child.shared().added, fitting + 3) << limit;
     EXPECT_EQ(NumTexts(path), fitting + 3);
     EXPECT_EQ(child.shared().complaint,
