@@ -9,7 +9,8 @@
 namespace poselift {
 
 // A text file that grows while a program runs and is whole at every moment: a head, what was
-// appended so far, a tail. Whoever reads it, and whatever kill -9 leaves, is such a file.
+// appended so far, a tail. That is what kill -9 leaves, and what a reader sees who is done
+// with it before the next addition but one.
 //
 // One pwrite does not do: a kill cuts it where it crosses a page (measured: 2 to 6 % of
 // kills). So there are two copies. An addition goes to the one that nobody sees, which then

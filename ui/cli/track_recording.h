@@ -27,6 +27,7 @@ class TrackRecording {
   TrackRecording(const std::filesystem::path& dir, const Skeleton& skeleton, double frame_time_s);
 
   // pose_in_world: of the skeleton, y up; nothing when it is not known.
+  // Waits for the disk when the disk is busy: not for the thread that empties the camera's buffers.
   // Throws InputError when a file cannot be written further, or when time does not go on.
   void Add(const FramePoses& frame, const std::optional<SkeletonPose>& pose_in_world,
            double time_s);
