@@ -2,10 +2,10 @@
 // Copyright (c) 2026 the poselift authors
 //
 // Renders a motion with tags on the body: poselift_render_tags MOTION --out DIR. Writes
-// pictures or a video, the camera (camera.yaml) and the truth: the poses (poses.json) and
-// the tags as they are seen (tags.json) and as they are worn (tags.toml). For soak tests and the
-// pictures of the documentation. With --detect it says which share of the whole tags the detector
-// finds.
+// pictures or a video, the camera (camera.yaml), what the person wears (tags.toml) and the
+// truth: the poses (poses.json) and what each picture shows of the tags (tags.json). For soak tests
+// and the pictures of the documentation. With --detect it says which share of the whole tags the
+// detector finds.
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
@@ -100,7 +100,7 @@ Motion ReadWalk(const Options& options) {
 }
 
 // With the lengths of the body's bones.
-BodyTags Dress(const Options& options, const Skeleton& skeleton) {
+BodyTags Wear(const Options& options, const Skeleton& skeleton) {
   const TagFamily family(options.family);
   const double cells = family.cells(), cells_of_size = family.cells_of_size();
   BodyTags tags = testing::DefaultTagPlacement(skeleton, {.size_m = 1e-3 * options.size_mm,
@@ -108,17 +108,17 @@ BodyTags Dress(const Options& options, const Skeleton& skeleton) {
                                                           .around = options.around});
   tags.family = options.family;
   for (int j = 1; j < kNumJoints; ++j) {
-    const auto bone = skeleton.FindBone(Joints()[static_cast<size_t>(j)].cmu_bone);
+    const JointInfo& joint = Joints()[static_cast<size_t>(j)];
+    const auto bone = skeleton.FindBone(joint.cmu_bone);
     const double length_m = skeleton.bones[static_cast<size_t>(*bone)].tip_m.norm();
-    tags.bone_lengths_m.emplace_back(Joints()[static_cast<size_t>(j)].name, length_m);
+    tags.bone_lengths_m.emplace_back(joint.name, length_m);
   }
   return tags;
 }
 
-BodyRenderer MakeRenderer(const Options& options, const Skeleton& skeleton,
+BodyRenderer MakeRenderer(const Options& options, const Skeleton& skeleton, const BodyTags& tags,
                           const testing::PlacedCamera& placed) {
   const TagFamily family(options.family);
-  const BodyTags tags = Dress(options, skeleton);
   testing::RenderOptions render{.exposure_s = 1e-3 * options.exposure_ms,
                                 .noise_grey_levels = options.noise,
                                 .seed = options.seed,
@@ -212,10 +212,11 @@ class PictureWriter {
 // All that is written to the folder.
 class RunWriter {
  public:
-  RunWriter(const Options& options, const Skeleton& skeleton, const testing::PlacedCamera& placed)
+  RunWriter(const Options& options, const Skeleton& skeleton, const BodyTags& worn,
+            const testing::PlacedCamera& placed)
       : out_(options.out),
-        worn_(Dress(options, skeleton)),
         camera_(placed.camera),
+        worn_(worn),
         pictures_(options, placed.camera),
         poses_(skeleton, placed.cam_from_world),
         tags_({{"family", options.family}, {"frames", Json::array()}}) {}
@@ -229,15 +230,15 @@ class RunWriter {
 
   void Finish() const {
     WriteCameraYaml(camera_, out_ / "camera.yaml");
-    WritePosesJson(poses_.poses(), out_ / "poses.json");
     WriteBodyTags(worn_, out_ / "tags.toml");
+    WritePosesJson(poses_.poses(), out_ / "poses.json");
     WriteFileAtomically(out_ / "tags.json", tags_.dump() + "\n");
   }
 
  private:
   fs::path out_;
-  BodyTags worn_;
   Camera camera_;
+  BodyTags worn_;
   PictureWriter pictures_;
   PosesOfTruth poses_;
   Json tags_;
@@ -254,9 +255,10 @@ void Run(const Options& options) {
   const testing::PlacedCamera placed = testing::CameraBefore(
       motion, options.distance_m, kRadFromDeg * options.azimuth_deg,
       options.camera.empty() ? testing::Webcam() : ReadCameraYaml(options.camera));
-  const BodyRenderer renderer = MakeRenderer(options, motion.skeleton, placed);
+  const BodyTags worn = Wear(options, motion.skeleton);
+  const BodyRenderer renderer = MakeRenderer(options, motion.skeleton, worn, placed);
   std::optional<RunWriter> writer;
-  if (!options.out.empty()) writer.emplace(options, motion.skeleton, placed);
+  if (!options.out.empty()) writer.emplace(options, motion.skeleton, worn, placed);
   TagDetector detector{TagFamily(options.family)};
   testing::DetectionTally tally;
   const BodyRenderer::PoseAt pose_at = testing::PosesOver(motion);

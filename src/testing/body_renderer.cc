@@ -122,7 +122,7 @@ std::string RenderOptions::Validate() const {
     return fmt::format("found a paper margin of {} tag sizes, wanted at least 0", paper_margin);
   if (!(ambient >= 0.0 && ambient <= 1.0))
     return fmt::format("found the ambient brightness {}, wanted 0 to 1", ambient);
-  if (!(towards_light_in_world.allFinite() && towards_light_in_world.norm() > 0.0))
+  if (!(towards_light_in_cam.allFinite() && towards_light_in_cam.norm() > 0.0))
     return "found a light without a direction";
   return "";
 }
@@ -192,9 +192,8 @@ RenderedFrame BodyRenderer::Render(const PoseAt& pose_at, double time_s) const {
   const int rays = moments > 7   ? kStepsOfPixel / 4
                    : moments > 2 ? kStepsOfPixel / 2
                                  : kStepsOfPixel;
-  const Light light{
-      (cam_from_world_.linear() * options_.towards_light_in_world.normalized()).cast<float>(),
-      static_cast<float>(options_.ambient)};
+  const Light light{options_.towards_light_in_cam.normalized().cast<float>(),
+                    static_cast<float>(options_.ambient)};
   const BodyPainter painter(rays_, light, background_);
   cv::Mat sum = background_.clone();
   for (int i = 0; i < moments; ++i) {

@@ -34,7 +34,7 @@ struct RenderOptions {
   bool color = false;              // BGR instead of grey
   cv::Mat background;              // 8-bit grey or BGR, any size; empty: a made-up wall
   double paper_margin = 0.05;      // white around the print, in tag sizes
-  Eigen::Vector3d towards_light_in_world = {0.4, 0.8, 0.6};  // of any length but 0
+  Eigen::Vector3d towards_light_in_cam = {-0.4, -0.8, -0.9};  // of any length but 0
   double ambient = 0.4;  // brightness away from the light, 0 ... 1
 
   std::string Validate() const;

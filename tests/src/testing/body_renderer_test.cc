@@ -358,7 +358,7 @@ TEST(BodyRendererTest, BadInputIsRefused) {
   EXPECT_THROW(Before(still, 3.0, {.noise_grey_levels = NAN}), std::invalid_argument);
   EXPECT_THROW(Before(still, 3.0, {.background = cv::Mat(2, 2, CV_32F)}), std::invalid_argument);
   EXPECT_THROW(Before(still, 3.0, {.paper_margin = -0.1}), std::invalid_argument);
-  EXPECT_THROW(Before(still, 3.0, {.towards_light_in_world = Vector3d::Zero()}),
+  EXPECT_THROW(Before(still, 3.0, {.towards_light_in_cam = Vector3d::Zero()}),
                std::invalid_argument);
   EXPECT_THROW(Before(still, 3.0, {.ambient = 1.1}), std::invalid_argument);
   EXPECT_THROW(Before(still, 3.0, {}, Camera{}), std::invalid_argument);
