@@ -68,6 +68,9 @@ std::string Complaint(const std::string& file, const std::string& included, bool
   if (included.starts_with("lift/eval/") && !file.starts_with("lift/eval/") &&
       !file.starts_with("ui/"))
     return "knows the truth";
+  if (included.starts_with("src/testing/") && !file.starts_with("src/testing/") &&
+      !file.starts_with("ui/"))
+    return "makes up pictures for tests";
   for (const Rule& rule : Rules())
     if (file.starts_with(rule.folder))
       return StartsWithAny(included, rule.may_include) ? "" : "is against the arrow";
@@ -138,6 +141,15 @@ TEST(IncludeArrow, HidesTheTruthFromTheLifter) {
               ElementsAre("lift/lifter.cc:1: lift/eval/error.h knows the truth"));
   EXPECT_THAT(Planted("lift/eval/a.cc", "#include \"lift/eval/error.h\""), IsEmpty());
   EXPECT_THAT(Planted("ui/cli/evaluate.cc", "#include \"lift/eval/error.h\""), IsEmpty());
+}
+
+TEST(IncludeArrow, KeepsTheRendererOutOfTheLibraries) {
+  EXPECT_THAT(Planted("src/a.cc", "#include \"src/testing/studio.h\""), SizeIs(1));
+  EXPECT_THAT(Planted("calib/a.cc", "#include \"src/testing/studio.h\""), SizeIs(1));
+  EXPECT_THAT(Planted("lift/a.cc", "#include \"src/testing/studio.h\""), SizeIs(1));
+  EXPECT_THAT(Planted("src/testing/a.cc", "#include \"src/testing/studio.h\""), IsEmpty());
+  EXPECT_THAT(Planted("ui/cli/evaluate.cc", "#include \"src/testing/studio.h\""), IsEmpty());
+  EXPECT_THAT(Planted("src/testing/a.cc", "#include \"calib/tag_family.h\""), SizeIs(1));
 }
 
 TEST(IncludeArrow, KeepsHeavyAndWindowLibrariesInTheirPlaces) {
