@@ -13,6 +13,11 @@ using Meeting = RaySamples::Meeting;
 
 constexpr float kInk = 0.08f;  // of the paper's brightness
 
+// What a grey picture shows of a colour.
+float GreyOf(const Eigen::Vector3f& bgr) {
+  return 0.114f * bgr.x() + 0.587f * bgr.y() + 0.299f * bgr.z();
+}
+
 // Along x the bits of i turned round, along y 5 i + 3 modulo 16.
 std::array<Eigen::Vector2f, kStepsOfPixel> Steps() {
   std::array<Eigen::Vector2f, kStepsOfPixel> steps;
@@ -54,10 +59,6 @@ std::vector<int> SlotsOfEdges(const SeenBody& body, const RaySamples& centres, c
 }
 
 }  // namespace
-
-float GreyOf(const Eigen::Vector3f& bgr) {
-  return 0.114f * bgr.x() + 0.587f * bgr.y() + 0.299f * bgr.z();
-}
 
 Eigen::Vector3f BodyPainter::Color(const SeenBody& body, const Meeting& meeting,
                                    const Ray& ray) const {

@@ -44,7 +44,4 @@ class BodyPainter {
   const cv::Mat& background_;
 };
 
-// What a grey picture shows of a colour.
-float GreyOf(const Eigen::Vector3f& bgr);
-
 }  // namespace poselift::testing
