@@ -69,8 +69,8 @@ std::string Describe(const BoardFinder& finder, const BoardAbsence& absence) {
   if (absence.is_mirrored) return "mirrored";
   if (!absence.seen) return "no board seen";
   if (IsPartOf(*absence.seen, finder.counts()))
-    return fmt::format("only {} of {} {} seen, the rest is hidden or outside of the picture",
-                       Text(*absence.seen), Text(finder.counts()), finder.counted());
+    return fmt::format("{} {} seen of {}: the rest is hidden or outside of the picture",
+                       Text(*absence.seen), finder.counted(), Text(finder.counts()));
   return fmt::format("{} {} seen, not {}", Text(*absence.seen), finder.counted(),
                      Text(finder.counts()));
 }

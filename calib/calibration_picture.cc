@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kLongerSide_px = 1000.0;
-constexpr int kMargin_px = 24, kHead_px = 84, kFoot_px = 56;
+constexpr int kMargin_px = 24, kHead_px = 84, kFoot_px = 56, kLeastWidth_px = 680;
 const cv::Scalar kCovered(196, 158, 86), kUsed(60, 60, 60), kArrow(30, 60, 220),
     kDropped(150, 50, 235);
 
@@ -83,12 +83,15 @@ cv::Mat DrawCalibration(const std::vector<BoardView>& views, const CalibrationRe
   const double scale = kLongerSide_px / std::max(camera.width_px, camera.height_px);
   const Frame frame{scale, cv::Rect(kMargin_px, kHead_px, cvRound(scale * camera.width_px),
                                     cvRound(scale * camera.height_px))};
-  cv::Mat canvas(frame.area.height + kHead_px + kFoot_px,
-                 std::max(frame.area.width, 680) + 2 * kMargin_px, CV_8UC3, palette::kPaper);
+  constexpr double kTitle_px = 12.0;
+  const int width_px =
+      std::max({frame.area.width, kLeastWidth_px, cvRound(TextWidth(title, kTitle_px))});
+  cv::Mat canvas(frame.area.height + kHead_px + kFoot_px, width_px + 2 * kMargin_px, CV_8UC3,
+                 palette::kPaper);
   DrawCells(coverage, frame, &canvas);
   const double enlargement = Enlargement(result, scale);
   DrawViews(views, result, frame, enlargement, &canvas);
-  DrawText(&canvas, {kMargin_px, 24.0}, title, {.height_px = 14.0});
+  DrawText(&canvas, {kMargin_px, 24.0}, title, {.height_px = kTitle_px});
   const int num_dropped = static_cast<int>(views.size()) - result.num_used();
   DrawText(&canvas, {kMargin_px, 52.0},
            fmt::format("{} views, {} dropped; rms {:.3f} px; cells: corners seen there, {:.0f} % "

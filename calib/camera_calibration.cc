@@ -17,8 +17,6 @@ namespace poselift {
 namespace {
 
 constexpr double kStartLoss_px = 2.0;
-// Huber's threshold over the noise: nearly all corners without outliers stay below it.
-constexpr double kLossSigmas = 3.0;
 constexpr double kLeastLoss_px = 0.01;
 
 using ViewList = std::vector<const BoardView*>;
@@ -91,17 +89,17 @@ double NoiseOf_px(const CalibrationBoard& board, const ViewList& views,
   return std::sqrt(Median(squares_px2) / (2.0 * std::log(2.0)) * num_numbers / num_redundant);
 }
 
+double LossOf_px(double noise_px) { return std::max(kLeastLoss_px, kLossSigmas * noise_px); }
+
 // Refines with the loss that the noise asks for.
 RefinementResult RefineToNoise(const CalibrationBoard& board, const ViewList& views, LensModel lens,
                                CalibrationState* state, double* noise_px) {
   RefinementResult refined;
   for (int round = 0; round < 3; ++round) {
     *noise_px = NoiseOf_px(board, views, *state, lens);
-    refined = RefineCamera(board, views,
-                           {.lens = lens,
-                            .loss_px = std::max(kLeastLoss_px, kLossSigmas * *noise_px),
-                            .with_covariance = round == 2},
-                           state);
+    refined = RefineCamera(
+        board, views,
+        {.lens = lens, .loss_px = LossOf_px(*noise_px), .with_covariance = round == 2}, state);
     if (!refined.is_done) return refined;
   }
   *noise_px = NoiseOf_px(board, views, *state, lens);
@@ -124,9 +122,8 @@ std::optional<size_t> WorstView(const CalibrationBoard& board, const ViewList& v
 
 // Drops bad views, the worst first: it spoils the others' fit. False when no camera fits.
 bool DropBadViews(const CalibrationBoard& board, LensModel lens, const CalibrationOptions& options,
-                  ViewList* views, CalibrationState* state) {
-  double noise_px = 0.0;
-  while (RefineToNoise(board, *views, lens, state, &noise_px).is_done) {
+                  ViewList* views, CalibrationState* state, double* noise_px) {
+  while (RefineToNoise(board, *views, lens, state, noise_px).is_done) {
     if (static_cast<int>(views->size()) <= options.fewest_views) return true;
     const auto worst = WorstView(board, *views, *state, options);
     if (!worst) return true;
@@ -266,22 +263,21 @@ CalibrationResult CalibrateCamera(const CalibrationBoard& board,
   result.status = CalibrationStatus::kFailed;
   const LensModel lens = options.lens.value_or(LensModel::kK1K2P1P2);
   auto state = Start(board, used, size_px, lens);
-  if (!state || !DropBadViews(board, lens, options, &used, &*state)) return result;
+  double& noise_px = result.corner_sigma_px;
+  if (!state || !DropBadViews(board, lens, options, &used, &*state, &noise_px)) return result;
   advance(0.3);
-  result.lens = options.lens ? *options.lens : SelectLensModel(board, used, *state);
-  advance(0.7);
-  const RefinementResult refined =
-      RefineToNoise(board, used, result.lens, &*state, &result.corner_sigma_px);
+  result.lens =
+      options.lens ? *options.lens : SelectLensModel(board, used, LossOf_px(noise_px), *state);
+  advance(0.8);
+  const RefinementResult refined = RefineToNoise(board, used, result.lens, &*state, &noise_px);
   if (!refined.is_done) return result;
   result.camera = state->camera;
   result.views.clear();
   DescribeViews(board, views, used, *state, &result);
-  result.sigma = result.corner_sigma_px * refined.covariance.diagonal().cwiseSqrt();
+  result.sigma = noise_px * refined.covariance.diagonal().cwiseSqrt();
   result.status = Judge(*state, refined.has_covariance, result.sigma, options);
   if (result.IsUsable())
-    result.view_sigma =
-        JackknifeSigma(board, used, *state, result.lens,
-                       std::max(kLeastLoss_px, kLossSigmas * result.corner_sigma_px));
+    result.view_sigma = JackknifeSigma(board, used, *state, result.lens, LossOf_px(noise_px));
   advance(1.0);
   return result;
 }

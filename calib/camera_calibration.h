@@ -21,8 +21,7 @@ namespace poselift {
 //   1. a focal length from the views' homographies, the pose of each view;
 //   2. all parameters together with a robust loss (camera_refinement.h);
 //   3. views that fit much worse than the others are dropped, the worst first;
-//   4. the fewest distortion coefficients that show views left out about as well as any
-//      larger model does (cross-validation over views, lens_selection.h);
+//   4. the distortion coefficients that the views tell from 0 (lens_selection.h);
 //   5. the parameters' standard deviations, from the noise of the corners and again from
 //      leaving out views, which also feels what several corners of a view have in common
 //      (a board that is not flat, blur).

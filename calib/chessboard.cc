@@ -29,12 +29,11 @@ struct Corners {
   int columns = 0;
 };
 
-// No corners when there is no such board. The finder of OpenCV 4.6 may throw on odd pictures,
-// and can give corners that are no grid (opencv#15712).
-Corners FindCorners(const cv::Mat& grey, const BoardCounts& counts, int flags) {
+// What the finder of OpenCV 4.6 says when it draws from this seed; it may throw.
+Corners TryFindCorners(const cv::Mat& grey, const BoardCounts& counts, int flags, unsigned seed) {
   Corners corners;
   cv::Mat meta;
-  cv::theRNG() = cv::RNG(1);  // the finder draws from it
+  cv::theRNG() = cv::RNG(seed);
   try {
     if (!cv::findChessboardCornersSB(grey, cv::Size(counts.columns, counts.rows), corners.px, flags,
                                      meta))
@@ -66,7 +65,18 @@ bool IsGrid(const Corners& corners) {
       if (row > 0 && row + 1 < corners.rows && !is_midway(row, column, 1, 0)) return false;
       if (column > 0 && column + 1 < corners.columns && !is_midway(row, column, 0, 1)) return false;
     }
-  return !corners.px.empty();
+  return true;
+}
+
+// No corners when there is no such board. Of some draws the finder gives corners beyond the
+// board (opencv#15712), of others the right ones.
+Corners FindCorners(const cv::Mat& grey, const BoardCounts& counts, int flags) {
+  constexpr unsigned kMostDraws = 6;
+  for (unsigned seed = 1; seed <= kMostDraws; ++seed) {
+    Corners corners = TryFindCorners(grey, counts, flags, seed);
+    if (corners.px.empty() || IsGrid(corners)) return corners;
+  }
+  return {};
 }
 
 // Whether a camera that is no mirror sees rows and columns so.
@@ -145,7 +155,7 @@ ChessboardFinder::ChessboardFinder(const Chessboard& chessboard) : chessboard_(c
 
 BoardView ChessboardFinder::Find(const cv::Mat& grey) {
   Corners corners = FindCorners(grey, counts(), kFlags);
-  if (!IsGrid(corners)) return {};
+  if (corners.px.empty()) return {};
   MakeRightHanded(&corners);
   RefineCorners(grey, &corners);
   BoardView view;
@@ -167,14 +177,14 @@ BoardAbsence ChessboardFinder::Explain(const cv::Mat& grey) {
     candidates.push_back({chessboard_.rows + rows, chessboard_.columns + columns});
   for (const BoardCounts& candidate : candidates) {
     if (std::min(candidate.rows, candidate.columns) < kFewestCorners) continue;
-    if (!IsGrid(FindCorners(reduced, candidate, kFlags))) continue;
+    if (FindCorners(reduced, candidate, kFlags).px.empty()) continue;
     if (std::find(seen_.begin(), seen_.end(), candidate) == seen_.end()) seen_.push_back(candidate);
     return {candidate};
   }
   // Any board, of which it may see a part only.
   const Corners any = FindCorners(reduced, {kFewestCorners, kFewestCorners},
                                   cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_LARGER);
-  if (!IsGrid(any)) return {};
+  if (any.px.empty()) return {};
   BoardCounts counts{std::min(any.rows, any.columns), std::max(any.rows, any.columns)};
   if (chessboard_.rows > chessboard_.columns) std::swap(counts.rows, counts.columns);
   return {counts};

@@ -8,16 +8,16 @@
 
 namespace poselift {
 
-// What is learned of a camera by leaving out views. The state is that of a calibration from
-// all of them, and the start of each fit.
+// Huber's threshold over the noise: nearly all corners that are no outliers stay below it.
+inline constexpr double kLossSigmas = 3.0;
 
-// The smallest lens model that shows views left out of its fit as well as the best model
-// does, but for one standard error of the difference over the views, or a twentieth of the
-// squared error. With fewer than four views: k1 alone, nothing can be left out.
+// The largest lens model of which the last coefficients are told from 0 by five standard
+// deviations, those of the corners' noise, loss_px / kLossSigmas. state: of a calibration from
+// these views, where the fits start.
 LensModel SelectLensModel(const CalibrationBoard& board, const std::vector<const BoardView*>& views,
-                          const CalibrationState& state);
+                          double loss_px, CalibrationState state);
 
-// The jackknife's standard deviations of the camera's parameters, views left out one by one,
+// The jackknife's standard deviations of the camera's parameters: views left out one by one,
 // or in at most 20 groups. 0 with fewer than four views.
 CameraParameters JackknifeSigma(const CalibrationBoard& board,
                                 const std::vector<const BoardView*>& views,

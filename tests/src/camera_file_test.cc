@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(
         Flaw{"Text", "a.toml", kAnipose, "-0.1", "\"x\"", "wanted a list of plain numbers"},
         Flaw{"Infinite", "a.toml", kAnipose, "-0.1", "inf", "wanted a list of plain numbers"},
         Flaw{"NotToml", "a.toml", kAnipose, "size = [", "size = ", "a.toml:3: found no TOML"},
-        Flaw{"NoSize", "a.toml", kAnipose, "size", "siz", "a.toml:1: B: found no size"}),
+        Flaw{"NoSize", "a.toml", kAnipose, "size", "extent", "a.toml:1: B: found no size"}),
     [](const auto& param_info) { return param_info.param.name; });
 
 TEST(CameraFile, DamagedIsReadOrRefused) {

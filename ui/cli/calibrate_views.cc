@@ -145,18 +145,16 @@ SurveyedViews SurveyVideo(const std::string& path, const ViewsOptions& options,
   Progress progress("find board");
   ViewChooser chooser(video.size_px(), options.chooser);
   Absences absences;
-  double next_s = 0.0;
-  for (;;) {
-    const auto frame = video.Next();
-    if (!frame) break;
+  double step_s = 0.0;  // from frame to frame, as the last two had it
+  for (auto frame = video.Next(); frame; frame = video.Next()) {
     const BoardView view = finder->Find(frame->grey);
     if (view.empty()) absences.Add(frame->grey);
     chooser.Offer(frame->grey, view, frame->index, frame->time_s);
     progress.Advance(frame->time_s / std::max(1e-3, last_s));
-    next_s = frame->time_s + options.every_s;
-    for (double time_s = frame->time_s; time_s < next_s - 0.05;) {
+    for (double time_s = frame->time_s; time_s + 1.5 * step_s < frame->time_s + options.every_s;) {
       const auto skipped_s = video.Skip_s();
-      if (!skipped_s) return Chosen(chooser, absences, video.size_px(), finder);
+      if (!skipped_s) break;
+      step_s = *skipped_s - time_s;
       time_s = *skipped_s;
     }
   }
