@@ -28,6 +28,7 @@ CLI::App* AddInfo(CLI::App* app, Run* run);
 CLI::App* AddLift(CLI::App* app, Run* run);
 CLI::App* AddPlot(CLI::App* app, Run* run);
 CLI::App* AddSmooth(CLI::App* app, Run* run);
+CLI::App* AddTags(CLI::App* app, Run* run);
 CLI::App* AddTrain(CLI::App* app, Run* run);
 CLI::App* AddEvaluate(CLI::App* app, Run* run);
 CLI::App* AddTrack(CLI::App* app, Run* run);

@@ -22,6 +22,7 @@ constexpr std::array kCommands = {
     AddCommand{poselift::cli::AddEvaluate},  AddCommand{poselift::cli::AddSmooth},
     AddCommand{poselift::cli::AddPlot},      AddCommand{poselift::cli::AddDoctor},
     AddCommand{poselift::cli::AddCalibrate}, AddCommand{poselift::cli::AddTrack},
+    AddCommand{poselift::cli::AddTags},
 };
 
 int RunGuarded(const Run& run) {

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "calib/tag_search.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/input_error.h"
+
+namespace poselift {
+namespace {
+
+using Corners = TagSearch::Corners;
+
+TagDetectorOptions FullOptions(const TagSearchOptions& options) {
+  if (const std::string error = options.Validate(); !error.empty()) throw InputError(error);
+  TagDetectorOptions full = options.detector;
+  full.decimate = options.full_decimate;
+  return full;
+}
+
+cv::Rect RegionAround(const Corners& corners_px, const TagSearchOptions& options) {
+  double edge_px = 0.0;
+  for (int i = 0; i < 4; ++i)
+    edge_px = std::max(edge_px, (corners_px.col((i + 1) % 4) - corners_px.col(i)).norm());
+  const double margin_px = std::max(options.min_margin_px, options.margin * edge_px);
+  const Eigen::Vector2d first = corners_px.rowwise().minCoeff().array() - margin_px;
+  const Eigen::Vector2d last = corners_px.rowwise().maxCoeff().array() + margin_px;
+  const auto bounded = [](double px) { return static_cast<int>(std::clamp(px, -1e6, 1e6)); };
+  return {cv::Point(bounded(first.x()), bounded(first.y())),
+          cv::Point(bounded(last.x()) + 1, bounded(last.y()) + 1)};
+}
+
+// Regions that overlap become one, so that no tag is cut by another's region nor found twice.
+void Merge(std::vector<cv::Rect>* regions) {
+  for (size_t i = 0; i < regions->size(); ++i)
+    for (size_t k = i + 1; k < regions->size(); ++k) {
+      if (((*regions)[i] & (*regions)[k]).empty()) continue;
+      (*regions)[i] |= (*regions)[k];
+      regions->erase(regions->begin() + static_cast<std::ptrdiff_t>(k));
+      i = static_cast<size_t>(-1);  // the larger one may reach others
+      break;
+    }
+}
+
+bool IsBetter(const TagDetection& a, const TagDetection& b) {
+  if (a.id != b.id) return a.id < b.id;
+  return a.hamming != b.hamming ? a.hamming < b.hamming : a.decision_margin > b.decision_margin;
+}
+
+}  // namespace
+
+std::string TagSearchOptions::Validate() const {
+  if (full_every < 1)
+    return fmt::format("TagSearchOptions::full_every = {}, wanted at least 1", full_every);
+  if (!(margin >= 0.0 && margin <= 100.0))
+    return fmt::format("TagSearchOptions::margin = {}, wanted 0 to 100", margin);
+  if (!(min_margin_px >= 8.0))
+    return fmt::format("TagSearchOptions::min_margin_px = {}, wanted at least 8", min_margin_px);
+  if (patience < 0) return fmt::format("TagSearchOptions::patience = {}, wanted 0 or more", patience);
+  return detector.Validate();
+}
+
+TagSearch::TagSearch(const TagFamily& family, const TagSearchOptions& options)
+    : options_(options),
+      in_regions_(family, options.detector),
+      in_full_(family, FullOptions(options)) {}
+
+void TagSearch::Reset() {
+  seen_.clear();
+  frames_since_full_ = 0;
+}
+
+std::vector<TagDetection> TagSearch::Detect(const cv::Mat& grey,
+                                            const std::map<int, Corners>& predicted_px) {
+  last_was_full_ = seen_.empty() || frames_since_full_ + 1 >= options_.full_every;
+  std::vector<TagDetection> found;
+  if (!last_was_full_) {
+    found = DetectIn(grey, Regions(grey.size(), predicted_px));
+    last_was_full_ = IsOneMissing(found);
+  }
+  if (last_was_full_) {
+    // Decimation loses small tags that their regions show: keep both.
+    const std::vector<TagDetection> full = in_full_.Detect(grey);
+    found.insert(found.end(), full.begin(), full.end());
+    if (options_.full_decimate > options_.detector.decimate && !seen_.empty()) {
+      const auto regions = DetectIn(grey, Regions(grey.size(), predicted_px));
+      found.insert(found.end(), regions.begin(), regions.end());
+    }
+    std::sort(found.begin(), found.end(), IsBetter);
+    const auto same_id = [](const TagDetection& a, const TagDetection& b) { return a.id == b.id; };
+    found.erase(std::unique(found.begin(), found.end(), same_id), found.end());
+  }
+  frames_since_full_ = last_was_full_ ? 0 : frames_since_full_ + 1;
+  Remember(found);
+  return found;
+}
+
+std::vector<cv::Rect> TagSearch::Regions(const cv::Size& size,
+                                         const std::map<int, Corners>& predicted_px) const {
+  std::vector<cv::Rect> regions;
+  const auto add = [&](const Corners& corners_px) {
+    const cv::Rect region =
+        corners_px.allFinite() ? RegionAround(corners_px, options_) & cv::Rect({0, 0}, size)
+                               : cv::Rect();
+    if (!region.empty()) regions.push_back(region);
+  };
+  for (const auto& [id, corners_px] : predicted_px) add(corners_px);
+  for (const auto& [id, seen] : seen_) {
+    if (predicted_px.count(id) != 0) continue;
+    // Where it goes on to, and where it was: motion may stop.
+    cv::Rect region = RegionAround(seen.corners_px, options_);
+    region |= RegionAround(seen.corners_px + (seen.frames_ago + 1) * seen.moved_px, options_);
+    region &= cv::Rect({0, 0}, size);
+    if (!region.empty()) regions.push_back(region);
+  }
+  Merge(&regions);
+  return regions;
+}
+
+// Only a tag that the last frame showed asks for a full frame, so that one that is hidden for
+// long does not make all frames full.
+bool TagSearch::IsOneMissing(const std::vector<TagDetection>& found) const {
+  return std::any_of(seen_.begin(), seen_.end(), [&](const auto& seen) {
+    return seen.second.frames_ago == 0 &&
+           std::none_of(found.begin(), found.end(),
+                        [&](const TagDetection& tag) { return tag.id == seen.first; });
+  });
+}
+
+std::vector<TagDetection> TagSearch::DetectIn(const cv::Mat& grey,
+                                              const std::vector<cv::Rect>& regions) {
+  std::vector<TagDetection> found;
+  for (const cv::Rect& region : regions)
+    for (TagDetection& tag : in_regions_.Detect(grey(region))) {
+      const Eigen::Vector2d corner_px(region.x, region.y);
+      tag.corners_px.colwise() += corner_px;
+      tag.centre_px += corner_px;
+      found.push_back(tag);
+    }
+  std::sort(found.begin(), found.end(), IsBetter);
+  const auto same_id = [](const TagDetection& a, const TagDetection& b) { return a.id == b.id; };
+  found.erase(std::unique(found.begin(), found.end(), same_id), found.end());
+  return found;
+}
+
+void TagSearch::Remember(const std::vector<TagDetection>& found) {
+  for (auto& [id, seen] : seen_) ++seen.frames_ago;
+  for (const TagDetection& tag : found) {
+    const auto before = seen_.find(tag.id);
+    Seen now{tag.corners_px, Corners::Zero(), 0};
+    if (before != seen_.end())
+      now.moved_px = (tag.corners_px - before->second.corners_px) / before->second.frames_ago;
+    seen_[tag.id] = now;
+  }
+  std::erase_if(seen_,
+                [&](const auto& seen) { return seen.second.frames_ago > options_.patience; });
+}
+
+}  // namespace poselift

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "calib/tag_detector.h"
+
+namespace poselift {
+
+struct TagSearchOptions {
+  TagDetectorOptions detector;  // decimate: of the regions
+  double full_decimate = 1.0;   // of full frames
+  int full_every = 10;          // frames; 1: always
+  // A region reaches around predicted corners by this part of the tag's longest side, and by
+  // min_margin_px at least.
+  double margin = 0.75;
+  double min_margin_px = 24.0;
+  // A tag that was seen and is not found in its region brings a full frame at once; after so
+  // many frames in a row without it, it is given up and waits for the next full frame.
+  int patience = 3;
+
+  std::string Validate() const;
+};
+
+// Finds tags in a video: near where they are predicted, in regions at full resolution, and in
+// the full frame every so often. No tag that full frames would show is lost for longer than
+// full_every frames, and none that was followed is lost at all without a full frame.
+class TagSearch {
+ public:
+  using Corners = Eigen::Matrix<double, 2, 4>;
+
+  explicit TagSearch(const TagFamily& family, const TagSearchOptions& options = {});
+
+  // predicted_px: corners of tags by id, from a motion model; what is not in it is looked for
+  // where it was last, moved on by what it moved before. Detections as those of TagDetector.
+  std::vector<TagDetection> Detect(const cv::Mat& grey,
+                                   const std::map<int, Corners>& predicted_px = {});
+
+  bool last_was_full() const { return last_was_full_; }
+  // Forgets all tags: the next frame is a full one.
+  void Reset();
+
+ private:
+  struct Seen {
+    Corners corners_px, moved_px;
+    int frames_ago = 0;
+  };
+
+  std::vector<cv::Rect> Regions(const cv::Size& size,
+                                const std::map<int, Corners>& predicted_px) const;
+  bool IsOneMissing(const std::vector<TagDetection>& found) const;
+  std::vector<TagDetection> DetectIn(const cv::Mat& grey, const std::vector<cv::Rect>& regions);
+  void Remember(const std::vector<TagDetection>& found);
+
+  TagSearchOptions options_;
+  TagDetector in_regions_, in_full_;
+  std::map<int, Seen> seen_;
+  int frames_since_full_ = 0;
+  bool last_was_full_ = false;
+};
+
+}  // namespace poselift

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+//
+// Made up: twelve tags that move before clutter and go behind a board for a while, with noise.
+// Checked: regions find what full frames at full resolution find, at the same places, and are
+// what most frames are looked at through.
+#include "calib/tag_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <set>
+
+#include "src/input_error.h"
+#include "tests/support/rendered_tags.h"
+#include "tests/support/support.h"
+
+namespace poselift {
+namespace {
+
+constexpr int kNumFrames = 24;
+
+cv::Mat Frame(int t, const cv::Mat& room, const TagFamily& family, std::mt19937_64* rng) {
+  cv::Mat grey = room.clone();
+  std::vector<testing::PlacedTag> tags;
+  for (int id = 0; id < 12; ++id) {
+    const double phase = 0.25 * t + id;
+    const Eigen::Vector2d centre_px(90.0 + 95.0 * (id % 6) + 25.0 * std::cos(phase),
+                                    110.0 + 210.0 * (id / 6) + 40.0 * std::sin(phase));
+    tags.push_back({id, testing::PxFromTag(centre_px, 26.0 + 2.0 * id, 0.05 * t + id)});
+  }
+  testing::DrawTags(family, tags, &grey, 210.0, 40.0, 24);
+  // A board that hides two of them for some frames.
+  if (t >= 8 && t < 14) grey(cv::Rect(40, 40, 200, 150)).setTo(90);
+  testing::AddNoise(3.0, rng, &grey);
+  return grey;
+}
+
+TEST(TagSearchTest, RegionsFindWhatFullFramesFindAtTheSamePlaces) {
+  std::mt19937_64 rng = testing::TestRng();
+  const TagFamily family("tag36h11");
+  const cv::Mat room = testing::Clutter({640, 480}, &rng);
+  TagDetector full(family, {.threads = 2});
+  TagSearch search(family, {.full_every = 8}), decimated(family, {.full_decimate = 2.0});
+  int num_full = 0, num_tags = 0, num_decimated = 0, num_lost = 0;
+  for (int t = 0; t < kNumFrames; ++t) {
+    const cv::Mat grey = Frame(t, room, family, &rng);
+    const std::vector<TagDetection> all = full.Detect(grey), found = search.Detect(grey);
+    num_full += search.last_was_full() ? 1 : 0;
+    num_tags += static_cast<int>(all.size());
+    num_decimated += static_cast<int>(decimated.Detect(grey).size());
+    for (const TagDetection& tag : all) {
+      const auto same = std::find_if(found.begin(), found.end(),
+                                     [&](const TagDetection& other) { return other.id == tag.id; });
+      num_lost += same == found.end() ? 1 : 0;
+      if (same == found.end()) continue;
+      // A tag's corners are those of the same pixels, whatever is around.
+      EXPECT_TRUE(testing::MatrixNear(same->corners_px, tag.corners_px, 0.1)) << t << " " << tag.id;
+    }
+    std::set<int> ids;
+    for (const TagDetection& tag : found) EXPECT_TRUE(ids.insert(tag.id).second);
+  }
+  EXPECT_GT(num_tags, 11 * kNumFrames);
+  EXPECT_LT(num_full, kNumFrames / 2);
+  // What comes from behind the board waits for the next full frame, and for nothing else.
+  EXPECT_LE(num_lost, 2 * 8);
+  RecordProperty("full frames", num_full);
+  RecordProperty("found later", num_lost);
+  RecordProperty("by decimated full frames", num_decimated);
+  EXPECT_GT(num_decimated, num_tags * 9 / 10);
+}
+
+TEST(TagSearchTest, PredictedTagsAreFoundWhereTheyWereNeverSeen) {
+  std::mt19937_64 rng = testing::TestRng();
+  const TagFamily family("tag36h11");
+  TagSearch search(family, {.full_every = 1000});
+  cv::Mat first(480, 640, CV_8U, cv::Scalar(110)), second = first.clone();
+  const testing::PlacedTag stays{1, testing::PxFromTag({100, 100}, 50.0, 0.1)},
+      comes{2, testing::PxFromTag({500, 400}, 50.0, 0.4)};
+  testing::DrawTags(family, {stays}, &first);
+  testing::DrawTags(family, {stays, comes}, &second);
+  EXPECT_EQ(search.Detect(first).size(), 1U);
+  EXPECT_TRUE(search.last_was_full());
+  EXPECT_EQ(search.Detect(second).size(), 1U);
+  EXPECT_FALSE(search.last_was_full());
+  EXPECT_EQ(search.Detect(second, {{2, comes.Corners()}}).size(), 2U);
+  EXPECT_FALSE(search.last_was_full());
+  // A lost one brings one full frame, not one after the other.
+  EXPECT_EQ(search.Detect(first).size(), 1U);
+  EXPECT_TRUE(search.last_was_full());
+  EXPECT_EQ(search.Detect(first).size(), 1U);
+  EXPECT_FALSE(search.last_was_full());
+  search.Reset();
+  EXPECT_EQ(search.Detect(second).size(), 2U);
+}
+
+TEST(TagSearchTest, PredictionsOutsideThePictureAndNoNumbersDoNoHarm) {
+  TagSearch search(TagFamily("tag36h11"), {});
+  cv::Mat grey(480, 640, CV_8U, cv::Scalar(110));
+  testing::DrawTags(TagFamily("tag36h11"), {{1, testing::PxFromTag({100, 100}, 50.0, 0.1)}}, &grey);
+  TagSearch::Corners far_px = TagSearch::Corners::Constant(-1e30), none_px;
+  none_px.setConstant(std::nan(""));
+  for (int t = 0; t < 3; ++t)
+    EXPECT_EQ(search.Detect(grey, {{5, far_px}, {6, none_px}}).size(), 1U);
+  EXPECT_TRUE(search.Detect(cv::Mat()).empty());
+  EXPECT_THROW(TagSearch(TagFamily("tag36h11"), {.full_every = 0}), InputError);
+}
+
+}  // namespace
+}  // namespace poselift
