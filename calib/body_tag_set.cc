@@ -20,20 +20,20 @@ struct Row {
 };
 
 constexpr std::array kRows = {
-    Row{"pelvis", 100, "on the belt, front middle", "pelvis", 0, 110, 40},
-    Row{"chest", 100, "on the breastbone", "thorax", -110, 90, 40},
-    Row{"back", 100, "between the shoulder blades", "thorax", -90, 110, 40},
-    Row{"head", 80, "on the forehead", "head_top", -90, 90, 40},
-    Row{"left_upper_arm", 80, "outside of the upper arm, middle", "left_elbow", 130, 50, 30},
-    Row{"right_upper_arm", 80, "outside of the upper arm, middle", "right_elbow", 130, 50, 30},
+    Row{"pelvis", 70, "on the belt, front middle", "pelvis", 0, 110, 40},
+    Row{"chest", 70, "on the breastbone", "thorax", -110, 90, 40},
+    Row{"back", 70, "between the shoulder blades", "thorax", -90, 110, 40},
+    Row{"head", 70, "on the forehead", "head_top", -90, 90, 40},
+    Row{"left_upper_arm", 70, "outside of the upper arm, middle", "left_elbow", 130, 50, 30},
+    Row{"right_upper_arm", 70, "outside of the upper arm, middle", "right_elbow", 130, 50, 30},
     Row{"left_forearm", 70, "back of the forearm, near the wrist", "left_wrist", 60, 30, 25},
     Row{"right_forearm", 70, "back of the forearm, near the wrist", "right_wrist", 60, 30, 25},
     Row{"left_hand", 65, "back of the hand, arrow to the wrist", "left_hand", 10, 15, 30},
     Row{"right_hand", 65, "back of the hand, arrow to the wrist", "right_hand", 10, 15, 30},
-    Row{"left_thigh", 80, "front of the thigh, middle", "left_knee", 190, 65, 35},
-    Row{"right_thigh", 80, "front of the thigh, middle", "right_knee", 190, 65, 35},
-    Row{"left_shin", 80, "front of the shin, middle", "left_ankle", 190, 50, 30},
-    Row{"right_shin", 80, "front of the shin, middle", "right_ankle", 190, 50, 30},
+    Row{"left_thigh", 70, "front of the thigh, middle", "left_knee", 190, 65, 35},
+    Row{"right_thigh", 70, "front of the thigh, middle", "right_knee", 190, 65, 35},
+    Row{"left_shin", 70, "front of the shin, middle", "left_ankle", 190, 50, 30},
+    Row{"right_shin", 70, "front of the shin, middle", "right_ankle", 190, 50, 30},
     Row{"left_foot", 65, "on the instep, arrow to the shin", "left_foot", 60, 35, 30},
     Row{"right_foot", 65, "on the instep, arrow to the shin", "right_foot", 60, 35, 30},
 };
@@ -57,7 +57,7 @@ std::vector<SheetTag> SheetTagsOf(const BodyTags& tags) {
   std::vector<SheetTag> sheet;
   for (const BodyTag& tag : tags.tags) {
     SheetTag printed{.id = tag.id, .size_m = tag.size_m, .name = tag.name};
-    if (tag.on_joint) printed.place = "joint " + tag.on_joint->joint;
+    if (tag.on_joint) printed.name += (tag.name.empty() ? "" : ", ") + tag.on_joint->joint;
     if (tag.on_bone) printed.place = "on " + SegmentName(tag.on_bone->bone);
     for (const Row& row : kRows)
       if (tag.name == row.name) printed.place = row.place;

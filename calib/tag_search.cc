@@ -59,7 +59,8 @@ std::string TagSearchOptions::Validate() const {
     return fmt::format("TagSearchOptions::margin = {}, wanted 0 to 100", margin);
   if (!(min_margin_px >= 8.0))
     return fmt::format("TagSearchOptions::min_margin_px = {}, wanted at least 8", min_margin_px);
-  if (patience < 0) return fmt::format("TagSearchOptions::patience = {}, wanted 0 or more", patience);
+  if (patience < 0)
+    return fmt::format("TagSearchOptions::patience = {}, wanted 0 or more", patience);
   return detector.Validate();
 }
 
@@ -102,9 +103,9 @@ std::vector<cv::Rect> TagSearch::Regions(const cv::Size& size,
                                          const std::map<int, Corners>& predicted_px) const {
   std::vector<cv::Rect> regions;
   const auto add = [&](const Corners& corners_px) {
-    const cv::Rect region =
-        corners_px.allFinite() ? RegionAround(corners_px, options_) & cv::Rect({0, 0}, size)
-                               : cv::Rect();
+    const cv::Rect region = corners_px.allFinite()
+                                ? RegionAround(corners_px, options_) & cv::Rect({0, 0}, size)
+                                : cv::Rect();
     if (!region.empty()) regions.push_back(region);
   };
   for (const auto& [id, corners_px] : predicted_px) add(corners_px);

@@ -112,7 +112,7 @@ void DrawRuler(cairo_t* c, double x_mm, double y_mm) {
   Text(c, x_mm, y_mm + 4.5, 3.6, kRuler_mm, "Check with a ruler: this scale is 100 mm long.");
 }
 
-// A small tag with the dimension that is meant.
+// A small tag with the dimension that is meant; without its bits, or cameras would see it.
 void DrawSizePicture(cairo_t* c, const TagFamily& family, double x_mm, double y_mm,
                      double width_mm) {
   constexpr double kPrint_mm = 16.0;
@@ -122,7 +122,13 @@ void DrawSizePicture(cairo_t* c, const TagFamily& family, double x_mm, double y_
   cairo_set_line_width(c, 0.15);
   cairo_rectangle(c, x_mm, y_mm, kPrint_mm, kPrint_mm);
   cairo_stroke(c);
-  DrawCells(c, family, 0, x_mm, y_mm, kPrint_mm);
+  const double cell_mm = kPrint_mm / family.cells();
+  Grey(c, 0.0);
+  cairo_set_line_width(c, cell_mm);
+  cairo_rectangle(c, x_mm + border_mm + 0.5 * cell_mm, y_mm + border_mm + 0.5 * cell_mm,
+                  kPrint_mm - 2.0 * border_mm - cell_mm, kPrint_mm - 2.0 * border_mm - cell_mm);
+  cairo_stroke(c);
+  cairo_set_line_width(c, 0.15);
   const double left_mm = x_mm + border_mm, right_mm = x_mm + kPrint_mm - border_mm;
   const double line_mm = y_mm + kPrint_mm + 3.0;
   cairo_set_source_rgb(c, 0.8, 0.1, 0.1);

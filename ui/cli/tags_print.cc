@@ -88,7 +88,7 @@ int PrintBody(const Options& options) {
 int PrintBoard(const Options& options) {
   AprilGrid grid{.rows = options.rows,
                  .columns = options.columns,
-                 .tag_size_m = 1e-3 * (options.has_size ? options.size_mm : 25.0),
+                 .tag_size_m = 1e-3 * (options.has_size ? options.size_mm : 24.0),
                  .spacing = options.spacing};
   if (!options.family.empty()) grid.family = options.family;
   const Paper& paper = FindPaper(options.paper);
@@ -139,7 +139,7 @@ CLI::App* AddTagsPrint(CLI::App* tags, Run* run) {
   command->add_option("--paper", options->paper, "A4, Letter or A3")->capture_default_str();
   command->add_option("--family", options->family, "Of --ids and the board [tag36h11]");
   CLI::Option* size =
-      command->add_option("--size-mm", options->size_mm, "Of --ids [60] and the board [25]")
+      command->add_option("--size-mm", options->size_mm, "Of --ids [60] and the board [24]")
           ->check(CLI::Range(2.0, 10000.0));
   command->add_option("--rows", options->rows, "Of the board")->capture_default_str();
   command->add_option("--columns", options->columns, "Of the board")->capture_default_str();
