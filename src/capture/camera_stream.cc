@@ -184,7 +184,8 @@ std::optional<CameraFrame> CameraStream::TakeBuffer() {
                                 is_monotonic);
     ++counts_.given;
   }
-  device_.Do("take a picture from it", VIDIOC_QBUF, &buffer);
+  device_.Try(VIDIOC_QBUF,
+              &buffer);  // the frame is whole whatever comes of it: the next call tells
   return frame;
 }
 

@@ -15,11 +15,22 @@ namespace {
 // How long Stop() may go unnoticed.
 constexpr double kSlice_s = 0.1;
 
+LiveOptions Checked(const std::string& path, const LiveOptions& options) {
+  if (const std::string flaw = options.Validate(); !flaw.empty()) throw InputError(path, flaw);
+  return options;
+}
+
 }  // namespace
+
+std::string LiveOptions::Validate() const {
+  if (max_waiting < 1) return fmt::format("max_waiting = {}, wanted at least 1", max_waiting);
+  if (!(patience_s > 0.0)) return fmt::format("patience_s = {}, wanted above 0", patience_s);
+  return camera.Validate();
+}
 
 LiveFrameSource::LiveFrameSource(const std::string& path, const LiveOptions& options,
                                  SystemCalls* system)
-    : options_(options),
+    : options_(Checked(path, options)),
       stream_(path, options.camera, system),
       last_good_s_(system->Now_s()),
       thread_(&LiveFrameSource::Run, this) {}

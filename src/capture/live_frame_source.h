@@ -23,6 +23,8 @@ struct LiveOptions {
   bool keep_encoded = false;
   int max_waiting = 2;      // frames that may wait for Next(); more delay, fewer dropped
   double patience_s = 5.0;  // without a good frame, until it throws
+
+  std::string Validate() const;
 };
 
 // A camera as a source of frames. A thread of its own takes the frames from the driver as they

@@ -278,6 +278,13 @@ TEST_F(CameraStreamTest, GivesAllFramesBeforeItIsUnplugged) {
   EXPECT_THROW(stream.Read(1.0), InputError);
 }
 
+// Between two calls: the picture that was taken is given before the error.
+TEST_F(CameraStreamTest, GivesAFrameWhoseBufferIsNotTakenBack) {
+  CameraStream stream(camera_.path, {}, &camera_);
+  camera_.errors[VIDIOC_QBUF] = ENODEV;
+  EXPECT_TRUE(stream.Read(1.0));
+}
+
 TEST_F(CameraStreamTest, ListsControls) {
   const V4l2Device device(camera_.path, &camera_);
   const auto controls = ListControls(device);

@@ -9,7 +9,8 @@
 #include <linux/videodev2.h>
 
 #include <cerrno>
-#include <chrono>
+#include <cmath>
+#include <functional>
 #include <opencv2/imgcodecs.hpp>
 #include <thread>
 
@@ -160,6 +161,18 @@ TEST_F(LiveFrameSourceTest, ComplainsOfADriverThatGivesOnlyBrokenFrames) {
         << error.what();
   }
   EXPECT_GE(source.counts().bad, 1);
+}
+
+TEST_F(LiveFrameSourceTest, RefusesOptionsThatMakeNoSense) {
+  for (const auto& spoil : std::vector<std::function<void(LiveOptions*)>>{
+           [](LiveOptions* o) { o->max_waiting = 0; }, [](LiveOptions* o) { o->patience_s = -1.0; },
+           [](LiveOptions* o) { o->camera.num_buffers = 1; },
+           [](LiveOptions* o) { o->camera.wanted.rate_hz = std::nan(""); },
+           [](LiveOptions* o) { o->camera.wanted.size_px.width = 0; }}) {
+    LiveOptions spoilt = options_;
+    spoil(&spoilt);
+    EXPECT_THROW(LiveFrameSource(camera_.path, spoilt, &camera_), InputError);
+  }
 }
 
 TEST_F(LiveFrameSourceTest, StopsAReaderThatWaits) {

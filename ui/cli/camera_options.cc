@@ -4,7 +4,9 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
 #include <charconv>
+#include <functional>
 
 #include "src/capture/fourcc.h"
 #include "src/input_error.h"
@@ -20,38 +22,56 @@ cv::Size ParseSize(const std::string& text) {
   const bool has_cross = width.ptr != end && (*width.ptr == 'x' || *width.ptr == 'X');
   const auto height = std::from_chars(has_cross ? width.ptr + 1 : end, end, size_px.height);
   if (height.ec != std::errc() || height.ptr != end || size_px.width < 1 || size_px.height < 1)
-    throw InputError("found --size " + text + ", wanted WIDTHxHEIGHT in pixels: 1280x720");
+    throw InputError("found the size " + text + ", wanted WIDTHxHEIGHT in pixels: 1280x720");
   return size_px;
+}
+
+uint32_t ParseFormat(const std::string& text) {
+  const std::string letters = text + "    ";
+  const uint32_t fourcc = Fourcc(letters[0], letters[1], letters[2], letters[3]);
+  if (text.size() > 4 || !IsDecodable(fourcc))
+    throw InputError("found the format " + text + ", wanted " + DecodableFormats());
+  return fourcc;
+}
+
+// What a reader complains of is wrong usage.
+CLI::Validator Reads(const std::function<void(const std::string&)>& read, const std::string& name) {
+  const auto flaw = [read](const std::string& text) -> std::string {
+    try {
+      read(text);
+      return "";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  return {flaw, name};
 }
 
 }  // namespace
 
 CameraOptions CameraChoice::Options() const {
   CameraOptions options;
-  options.wanted = {0, ParseSize(size), rate_hz};
-  if (!format.empty()) {
-    const std::string letters = format + "    ";
-    options.wanted.fourcc = Fourcc(letters[0], letters[1], letters[2], letters[3]);
-    if (format.size() > 4 || !IsDecodable(options.wanted.fourcc))
-      throw InputError("found --format " + format + ", wanted " + DecodableFormats());
-  }
+  options.wanted = {format.empty() ? 0 : ParseFormat(format), ParseSize(size), rate_hz};
   for (const std::string& control : controls) options.controls.push_back(ParseControl(control));
   return options;
 }
 
 void AddCameraOptions(CLI::App* command, CameraChoice* choice) {
   command->add_option("--size", choice->size, "The camera's picture, WIDTHxHEIGHT")
+      ->check(Reads(ParseSize, "WIDTHxHEIGHT"))
       ->capture_default_str();
   command->add_option("--rate", choice->rate_hz, "The camera's pictures a second")
       ->check(IsFrameRate())
       ->capture_default_str();
-  command->add_option(
-      "--format", choice->format,
-      "The camera's format: " + DecodableFormats() + "; else the best for the rate");
+  command
+      ->add_option("--format", choice->format,
+                   "The camera's format: " + DecodableFormats() + "; else the best for the rate")
+      ->check(Reads(ParseFormat, "FORMAT"));
   command
       ->add_option("--set", choice->controls,
                    "A control of the camera: exposure=50 (0.1 ms), gain=20, ...; exposure, gain, "
                    "focus and white balance are set to manual before")
+      ->check(Reads(ParseControl, "NAME=VALUE"))
       ->allow_extra_args(false);
 }
 
