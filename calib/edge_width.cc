@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the poselift authors
 #include "calib/edge_width.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -24,15 +25,7 @@ double Bilinear(const cv::Mat& grey, const Eigen::Vector2d& at_px) {
   return (1 - v) * ((1 - u) * upper[0] + u * upper[1]) + v * ((1 - u) * lower[0] + u * lower[1]);
 }
 
-// Where a profile that rises first reaches a level, in steps.
-double Crossing(const std::vector<double>& profile, double level) {
-  for (size_t i = 1; i < profile.size(); ++i)
-    if (profile[i] >= level && profile[i - 1] < level)
-      return static_cast<double>(i - 1) + (level - profile[i - 1]) / (profile[i] - profile[i - 1]);
-  return kNaN;
-}
-
-// Grey across the edge, from the black inside to the white outside, mean of its middle part.
+// Grey across the edge, from inside to outside, mean of its middle part.
 std::vector<double> Profile(const cv::Mat& grey, const Eigen::Vector2d& begin_px,
                             const Eigen::Vector2d& end_px, const Eigen::Vector2d& outwards,
                             double reach_px) {
@@ -49,9 +42,24 @@ std::vector<double> Profile(const cv::Mat& grey, const Eigen::Vector2d& begin_px
   return profile;
 }
 
+// In steps, from the darkest place inside to the brightest outside: what lies beyond is other
+// cells or other paper. NaN where there is no such rise.
+double RiseSteps(const std::vector<double>& profile) {
+  constexpr double kMinContrast = 30.0;
+  const auto middle = profile.begin() + static_cast<std::ptrdiff_t>(profile.size() / 2);
+  const auto black = std::min_element(profile.begin(), middle);
+  const auto white = std::max_element(middle, profile.end());
+  const double rise = *white - *black;
+  if (!(rise > kMinContrast)) return kNaN;
+  const auto crossing = [&](double level) {
+    const auto above = std::find_if(black, white, [&](double grey) { return grey >= level; });
+    return static_cast<double>(above - black) - (*above - level) / (*above - *(above - 1));
+  };
+  return crossing(*black + 0.9 * rise) - crossing(*black + 0.1 * rise);
+}
+
 double Width_px(const cv::Mat& grey, const TagDetection& tag, int edge, int cells) {
   constexpr double kMinCell_px = 3.0;
-  constexpr double kMinContrast = 30.0;
   const Eigen::Vector2d begin_px = tag.corners_px.col(edge);
   const Eigen::Vector2d end_px = tag.corners_px.col((edge + 1) % 4);
   const double length_px = (end_px - begin_px).norm();
@@ -60,11 +68,9 @@ double Width_px(const cv::Mat& grey, const TagDetection& tag, int edge, int cell
   const Eigen::Vector2d along = (end_px - begin_px) / length_px;
   // The corners go round clockwise in the picture, whose y points down.
   const Eigen::Vector2d outwards(along.y(), -along.x());
-  const std::vector<double> profile = Profile(grey, begin_px, end_px, outwards, 0.9 * cell_px);
-  const double rise = profile.back() - profile.front();
-  if (!(rise > kMinContrast)) return kNaN;
-  return kStep_px * (Crossing(profile, profile.front() + 0.9 * rise) -
-                     Crossing(profile, profile.front() + 0.1 * rise));
+  // Enough for an edge a cell wide, and no more, for other edges follow.
+  const std::vector<double> profile = Profile(grey, begin_px, end_px, outwards, 0.65 * cell_px);
+  return kStep_px * RiseSteps(profile);
 }
 
 }  // namespace
@@ -72,7 +78,7 @@ double Width_px(const cv::Mat& grey, const TagDetection& tag, int edge, int cell
 std::array<double, 2> EdgeWidths_px(const cv::Mat& grey, const TagDetection& tag,
                                     int cells_of_size) {
   const auto width_px = [&](int edge) { return Width_px(grey, tag, edge, cells_of_size); };
-  return {0.5 * (width_px(0) + width_px(2)), 0.5 * (width_px(1) + width_px(3))};
+  return {std::fmin(width_px(0), width_px(2)), std::fmin(width_px(1), width_px(3))};
 }
 
 }  // namespace poselift

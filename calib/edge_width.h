@@ -11,8 +11,9 @@ namespace poselift {
 
 // How wide the edges of a tag are, px: from 10 to 90 % of the way from its black border to
 // the white one, across the edge. A sharp picture has some 1.5 px, one that is smeared
-// over b px has 0.8 b or more. First the mean of the top and the bottom edge, then that of the
-// left and the right: motion along one axis of the tag widens the edges across it alone.
+// over b px, at most a cell, 0.8 b. First that of the top and the bottom edge, the sharper of
+// them, then that of the left and the right: motion along one axis of the tag widens the
+// edges across it alone.
 //
 // cells_of_size: TagFamily::cells_of_size(). NaN where the tag is too small (cells below 3 px),
 // has no contrast, or goes out of the picture.

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the poselift authors
 #pragma once
 
+#include <limits>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
@@ -27,9 +28,10 @@ struct TagFacts {
   int num_found = 0;           // in pictures as they are
   int num_found_mirrored = 0;  // in the same pictures, mirrored
   // Of their edges, from 10 to 90 % of the way from black to white, along the tag's axis
-  // with the sharper edges and along the other: across the motion, if any. Medians.
-  double sharper_edge_px = 0.0;
-  double wider_edge_px = 0.0;
+  // with the sharper edges and along the other: across the motion, if any. Medians;
+  // NaN where none could be measured.
+  double sharper_edge_px = std::numeric_limits<double>::quiet_NaN();
+  double wider_edge_px = std::numeric_limits<double>::quiet_NaN();
 };
 
 // What was seen of a source of frames in some seconds.

@@ -167,7 +167,7 @@ void JudgeTags(const SourceFacts& facts, Findings* findings) {
     findings->push_back({Weight::kNote, "shows no tag",
                          "with one in view its sharpness and mirroring are checked too",
                          "hold a printed tag before it and look again"});
-  if (tags.num_found == 0 || tags.wider_edge_px <= kSharp_px) return;
+  if (!(tags.wider_edge_px > kSharp_px)) return;
   const bool is_motion = tags.wider_edge_px > kDirected * tags.sharper_edge_px;
   findings->push_back(
       {Weight::kAdvice,

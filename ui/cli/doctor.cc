@@ -173,15 +173,21 @@ Json ToJson(const CameraFacts& camera) {
 }
 
 void Print(const SourceFacts& facts, cv::Size size_px) {
-  fmt::print("{}: {} pictures of {} in {:.2f} s, {:.4g} a second\n", facts.name, facts.num_frames,
-             SizeText(size_px), facts.duration_s, facts.rate_hz());
+  fmt::print("{}: {} picture{} of {}", facts.name, facts.num_frames,
+             facts.num_frames == 1 ? "" : "s", SizeText(size_px));
+  if (facts.num_frames > 1)
+    fmt::print(" in {:.2f} s, {:.4g} a second", facts.duration_s, facts.rate_hz());
+  fmt::print("\n");
   if (facts.camera) Print(*facts.camera);
   fmt::print("  grey                 mean {:.0f} of 255, {:.1f} % near black, {:.1f} % saturated\n",
              facts.mean_grey, 100.0 * facts.dark_part, 100.0 * facts.saturated_part);
-  if (facts.tags && facts.tags->num_found > 0)
-    fmt::print("  tags                 {} in {} pictures, edges {:.1f} and {:.1f} px wide\n",
-               facts.tags->num_found, facts.samples.size(), facts.tags->sharper_edge_px,
+  if (!facts.tags || facts.tags->num_found == 0) return;
+  fmt::print("  tags                 {} in {} of the pictures", facts.tags->num_found,
+             facts.samples.size());
+  if (facts.tags->wider_edge_px > 0.0)
+    fmt::print(", edges {:.1f} and {:.1f} px wide", facts.tags->sharper_edge_px,
                facts.tags->wider_edge_px);
+  fmt::print("\n");
 }
 
 Json ToJson(const SourceFacts& facts, cv::Size size_px) {
