@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/camera.h"
+#include "src/tag_detection.h"
 
 namespace poselift {
 
@@ -26,13 +27,6 @@ struct TagPoseOptions {
   double uncertain_rad = 0.3;
 
   std::string Validate() const;
-};
-
-struct TagPose {
-  Eigen::Isometry3d cam_from_tag = Eigen::Isometry3d::Identity();  // frame: tag_detection.h
-  double rms_px = 0.0;                                             // over the eight coordinates
-  // Of (w, s): rotation exp(w) R, radians, and position t + s, metres, both in cam.
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 struct TagPoses {

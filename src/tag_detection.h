@@ -29,9 +29,9 @@ struct TagDetection {
 // lean one way or the other.
 struct TagPose {
   Eigen::Isometry3d cam_from_tag = Eigen::Isometry3d::Identity();  // metres
-  // Of small changes of it: a shift in cam (m), a turn in tag, R Exp(w) (rad).
+  double rms_px = 0.0;  // over the eight coordinates of its corners
+  // Of (w, s): rotation exp(w) R, radians, and position t + s, metres, both in cam.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  double rms_px = 0.0;  // of the corners
 };
 
 // A tag with its poses, the likelier first.

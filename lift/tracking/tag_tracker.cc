@@ -212,8 +212,8 @@ std::vector<SkeletonPose> TagTracker::FirstPoses(const std::vector<Seen>& seen) 
   for (const Seen& tag : seen) {
     if (tag.sighting->poses.empty()) continue;
     const TagPose& pose = tag.sighting->poses.front();
-    const double place_m2 = pose.covariance.topLeftCorner<3, 3>().trace();
-    const double lean_rad2 = pose.covariance.bottomRightCorner<3, 3>().trace() +
+    const double place_m2 = pose.covariance.bottomRightCorner<3, 3>().trace();
+    const double lean_rad2 = pose.covariance.topLeftCorner<3, 3>().trace() +
                              (tag.sighting->is_ambiguous ? kLeanUnknown_rad * kLeanUnknown_rad : 0);
     ++num_tags;
     if (tag.worn->bone >= 0) {
@@ -297,12 +297,10 @@ PointInSpace TagTracker::InSpace(const Seen& tag, const BoneFrames& frames) cons
   const TagPose& pose =
       *std::min_element(tag.sighting->poses.begin(), tag.sighting->poses.end(),
                         [&](const TagPose& a, const TagPose& b) { return off(a) < off(b); });
-  const Eigen::Matrix3d R = pose.cam_from_tag.linear();
-  const Eigen::Matrix3d by_turn = -R * Cross(mount.joint_in_tag_m);
-  const Eigen::Matrix3d in_cam =
-      pose.covariance.topLeftCorner<3, 3>() +
-      by_turn * pose.covariance.bottomRightCorner<3, 3>() * by_turn.transpose() +
-      mount.sigma_m * mount.sigma_m * Eigen::Matrix3d::Identity();
+  Eigen::Matrix<double, 3, 6> by_pose;  // by a turn and a shift in cam
+  by_pose << -Cross(pose.cam_from_tag.linear() * mount.joint_in_tag_m), Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d in_cam = by_pose * pose.covariance * by_pose.transpose() +
+                                 mount.sigma_m * mount.sigma_m * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d world_from_cam = view_.cam_from_world.linear().transpose();
   return {tag.worn->joint, bone.tip_m,
           view_.cam_from_world.inverse() * (pose.cam_from_tag * mount.joint_in_tag_m),

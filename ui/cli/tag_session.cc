@@ -2,10 +2,9 @@
 // Copyright (c) 2026 the poselift authors
 #include "ui/cli/tag_session.h"
 
-#include <opencv2/calib3d.hpp>
-#include <opencv2/core/eigen.hpp>
 #include <utility>
 
+#include "calib/tag_pose.h"
 #include "lift/poses_to_motion.h"
 #include "lift/tracking/person_skeleton.h"
 #include "src/level_camera.h"
@@ -14,9 +13,9 @@ namespace poselift::cli {
 namespace {
 
 // The ids of the person's tags alone are looked for.
-TagDetectorOptions ForPerson(TagDetectorOptions options, const BodyTags& tags) {
-  options.known_ids.clear();
-  for (const BodyTag& tag : tags.tags) options.known_ids.push_back(tag.id);
+TagSearchOptions ForPerson(TagSearchOptions options, const BodyTags& tags) {
+  options.detector.known_ids.clear();
+  for (const BodyTag& tag : tags.tags) options.detector.known_ids.push_back(tag.id);
   return options;
 }
 
@@ -28,13 +27,17 @@ TagSession::TagSession(const BodyTags& tags, const Camera& camera, const PhotoLi
     : tags_(tags),
       camera_(camera),
       skeleton_(PersonSkeleton(lifter.dictionary().skeleton, tags)),
-      detector_(TagFamily(tags.family), ForPerson(options.detector, tags)),
+      search_(TagFamily(tags.family), ForPerson(options.search, tags)),
       tracker_(skeleton_, tags, camera, kLevelFromCam, lifter, std::move(codebook),
                options.tracker),
       person_(skeleton_, camera, kLevelFromCam) {}
 
 void TagSession::Add(const VideoFrame& frame) {
-  const std::vector<TagSighting> seen = SightTags(detector_.Detect(frame.grey), tags_, camera_);
+  std::map<int, TagSearch::Corners> predicted_px;
+  for (const TagDetection& tag : tracker_.Expected(frame.time_s))
+    predicted_px.emplace(tag.id, tag.corners_px);
+  const std::vector<TagSighting> seen =
+      SightTags(search_.Detect(frame.grey, predicted_px), tags_, camera_);
   tracker_.Add(frame.time_s, seen);
   waiting_.push_back({frame.time_s, frame.monotonic_s, static_cast<int>(seen.size())});
 }
@@ -57,41 +60,8 @@ std::vector<TagSighting> SightTags(const std::vector<TagDetection>& detections,
   for (const TagDetection& detection : detections) {
     const BodyTag* worn = tags.Find(detection.id);
     if (!worn) continue;
-    TagSighting sighting{detection, {}, false};
-    std::vector<cv::Point3d> corners_m;
-    std::vector<cv::Point2d> rays;
-    const Eigen::Matrix<double, 3, 4> model = TagCorners_m(worn->size_m);
-    for (int i = 0; i < 4; ++i) {
-      const Eigen::Vector3d ray = camera.Undistort(detection.corners_px.col(i));
-      corners_m.emplace_back(model(0, i), -model(1, i), 0.0);
-      rays.emplace_back(ray.x(), ray.y());
-    }
-    std::vector<cv::Mat> turns, shifts, errors;
-    cv::Mat reprojection;
-    cv::solvePnPGeneric(corners_m, rays, cv::Matx33d::eye(), cv::noArray(), turns, shifts, false,
-                        cv::SOLVEPNP_IPPE_SQUARE, cv::noArray(), cv::noArray(), reprojection);
-    for (size_t k = 0; k < turns.size(); ++k) {
-      cv::Mat R;
-      cv::Rodrigues(turns[k], R);
-      TagPose pose;
-      Eigen::Matrix3d rotation;
-      cv::cv2eigen(R, rotation);
-      // IPPE's square has y up.
-      pose.cam_from_tag.linear() =
-          rotation * Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal().toDenseMatrix();
-      pose.cam_from_tag.translation() = Eigen::Vector3d(
-          shifts[k].at<double>(0), shifts[k].at<double>(1), shifts[k].at<double>(2));
-      const double depth_sigma = 0.3 * pose.cam_from_tag.translation().z() *
-                                 pose.cam_from_tag.translation().z() /
-                                 (camera.fx_px * worn->size_m);
-      pose.covariance.setZero();
-      pose.covariance.diagonal() << 1e-5, 1e-5, depth_sigma * depth_sigma, 0.02, 0.02, 0.001;
-      pose.rms_px = camera.fx_px * reprojection.at<double>(static_cast<int>(k));
-      sighting.poses.push_back(pose);
-    }
-    if (sighting.poses.size() == 2)
-      sighting.is_ambiguous = sighting.poses[1].rms_px - sighting.poses[0].rms_px < 0.3;
-    sightings.push_back(std::move(sighting));
+    TagPoses found = FindTagPoses(camera, detection.corners_px, worn->size_m);
+    sightings.push_back({detection, std::move(found.poses), found.is_ambiguous});
   }
   return sightings;
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/tag_detector.h"
+#include "calib/tag_search.h"
 #include "lift/tracking/tag_tracker.h"
 #include "lift/tracking/tracked_person.h"
 #include "src/io/frame_source.h"
@@ -17,7 +17,7 @@
 namespace poselift::cli {
 
 struct TagSessionOptions {
-  TagDetectorOptions detector;
+  TagSearchOptions search;
   TagTrackerOptions tracker;
 };
 
@@ -52,7 +52,7 @@ class TagSession {
   BodyTags tags_;
   Camera camera_;
   Skeleton skeleton_;
-  TagDetector detector_;
+  TagSearch search_;
   TagTracker tracker_;
   TrackedPerson person_;
   std::deque<Waiting> waiting_;
