@@ -13,9 +13,10 @@
 namespace poselift::cli {
 
 CLI::App* AddTags(CLI::App* app, Run* run) {
-  CLI::App* tags = app->add_subcommand("tags", "AprilTags on a body: print them");
+  CLI::App* tags =
+      app->add_subcommand("tags", "AprilTags on a body: print them, find where they sit");
   tags->require_subcommand(1);
-  constexpr std::array kCommands = {AddTagsPrint};
+  constexpr std::array kCommands = {AddTagsPrint, AddTagsFit};
   auto commands = std::make_shared<std::vector<std::pair<CLI::App*, Run>>>(kCommands.size());
   for (size_t i = 0; i < kCommands.size(); ++i)
     (*commands)[i].first = kCommands[i](tags, &(*commands)[i].second);

@@ -8,5 +8,6 @@ namespace poselift::cli {
 
 // Commands of `tags`, one file each.
 CLI::App* AddTagsPrint(CLI::App* tags, Run* run);
+CLI::App* AddTagsFit(CLI::App* tags, Run* run);
 
 }  // namespace poselift::cli

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "tests/support/cmu_like_skeleton.h"
+#include "tests/support/jacobian_check.h"
 #include "tests/support/planted_pose.h"
 #include "tests/support/random_pose.h"
 #include "tests/support/support.h"
@@ -19,6 +20,7 @@
 namespace poselift {
 namespace {
 
+using testing::ExpectJacobianAgrees;
 using testing::MatrixNear;
 using testing::RandomMatrix;
 using testing::RandomPoseWithinLimits;
@@ -74,39 +76,6 @@ Eigen::Isometry3d WorldFromTag(const Articulation& body, const SkeletonPose& pos
   world_from_bone.linear() = frames.world_from_bone[bone];
   world_from_bone.translation() = frames.start_in_world_m.col(bone);
   return world_from_bone * tag.bone_from_tag;
-}
-
-using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-// The analytic Jacobian of one block along its tangent against central
-// differences. The block is put back.
-void ExpectJacobianAgrees(const ceres::CostFunction& cost, const std::vector<double*>& blocks,
-                          size_t b, const ceres::Manifold& manifold) {
-  const int size = manifold.AmbientSize();
-  RowMajorMatrix by_block(cost.num_residuals(), size);
-  std::vector<double*> jacobians(blocks.size(), nullptr);
-  jacobians[b] = by_block.data();
-  Eigen::VectorXd residuals(cost.num_residuals());
-  cost.Evaluate(blocks.data(), residuals.data(), jacobians.data());
-  const Eigen::VectorXd start = Eigen::Map<Eigen::VectorXd>(blocks[b], size);
-  RowMajorMatrix by_tangent(size, manifold.TangentSize());
-  manifold.PlusJacobian(start.data(), by_tangent.data());
-
-  constexpr double kStep = 1e-6;
-  Eigen::MatrixXd numeric(cost.num_residuals(), manifold.TangentSize());
-  for (int k = 0; k < manifold.TangentSize(); ++k) {
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(manifold.TangentSize());
-    Eigen::VectorXd behind(cost.num_residuals());
-    step[k] = kStep;
-    manifold.Plus(start.data(), step.data(), blocks[b]);
-    cost.Evaluate(blocks.data(), residuals.data(), nullptr);
-    step[k] = -kStep;
-    manifold.Plus(start.data(), step.data(), blocks[b]);
-    cost.Evaluate(blocks.data(), behind.data(), nullptr);
-    numeric.col(k) = (residuals - behind) / (2 * kStep);
-  }
-  Eigen::Map<Eigen::VectorXd>(blocks[b], size) = start;
-  EXPECT_TRUE(MatrixNear(by_block * by_tangent, numeric, 1e-6)) << "block " << b;
 }
 
 void ExpectJacobiansAgree(const ceres::CostFunction& cost, Blocks blocks) {

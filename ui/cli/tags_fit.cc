@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "calib/tag_search.h"
+#include "lift/default_dictionary.h"
+#include "lift/dictionary_file.h"
+#include "lift/temporal/motion_codebook_file.h"
+#include "lift/tracking/tag_fit.h"
+#include "src/io/atomic_file.h"
+#include "src/io/body_tags_toml.h"
+#include "src/level_camera.h"
+#include "ui/cli/frame_rate.h"
+#include "ui/cli/progress.h"
+#include "ui/cli/tag_session.h"
+#include "ui/cli/tags.h"
+#include "ui/cli/tracking_inputs.h"
+
+namespace poselift::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  TrackingInputs inputs;
+  std::string tags, out, json, dictionary, motion_model;
+  double seconds = 60.0;
+  TagFitOptions fit;
+};
+
+std::vector<SightedFrame> Sight(const BodyTags& tags, const Options& options, FrameSource* source,
+                                const Camera& camera) {
+  TagSearchOptions searching{.detector = {.threads = 2}};
+  for (const BodyTag& tag : tags.tags) searching.detector.known_ids.push_back(tag.id);
+  TagSearch search(TagFamily(tags.family), searching);
+  Progress progress("look for tags", 0, "frames");
+  std::vector<SightedFrame> frames;
+  while (const auto frame = source->Next()) {
+    if (frame->time_s >= options.seconds) break;
+    frames.push_back({frame->time_s, SightTags(search.Detect(frame->grey), tags, camera)});
+    progress.Advance(frame->time_s / options.seconds);
+  }
+  return frames;
+}
+
+void Print(const TagFit& fit, const BodyTags& tags) {
+  fmt::print("{:>4} {:24} {:>7} {:>7} {:>9} {:>10} {:>10} {:>11}\n", "tag", "name", "frames",
+             "px RMS", "moved mm", "turned deg", "sigma mm", "sigma deg");
+  for (const TagFitRow& row : fit.rows) {
+    const BodyTag& found = *fit.tags.Find(row.id);
+    if (row.num_frames == 0) {
+      fmt::print("{:>4} {:24} {:>7} it stays as it was\n", row.id, tags.Find(row.id)->name,
+                 "unseen");
+      continue;
+    }
+    fmt::print("{:>4} {:24} {:>7} {:>7.2f} {:>9.0f} {:>10.1f} {:>10.1f} {:>11.1f}\n", row.id,
+               found.name, row.num_frames, row.rms_px, row.moved_mm, row.turned_deg,
+               1e3 * found.on_bone->sigma_m, 57.29578 * found.on_bone->sigma_rad);
+  }
+  fmt::print("bones against the standard skeleton:");
+  for (int g = 0; g < kNumBoneGroups; ++g)
+    fmt::print("{} {} {:+.1f} ± {:.1f}", g > 0 ? "," : "", BoneGroupNames()[g],
+               100.0 * std::expm1(fit.proportions.log_ratios[g]),
+               100.0 * std::sqrt(fit.proportions.covariance(g, g)));
+  fmt::print(" %\n");
+}
+
+void WriteJson(const TagFit& fit, const Options& options) {
+  Json json = {{"command", "tags fit"},
+               {"input", options.inputs.input},
+               {"frames", fit.num_frames},
+               {"rows", Json::array()}};
+  for (const TagFitRow& row : fit.rows)
+    json["rows"].push_back({{"id", row.id},
+                            {"frames", row.num_frames},
+                            {"rms_px", row.rms_px},
+                            {"moved_mm", row.moved_mm},
+                            {"turned_deg", row.turned_deg}});
+  WriteFileAtomically(options.json, json.dump(1) + "\n");
+}
+
+int Fit(const Options& options) {
+  const BodyTags tags = ReadBodyTags(options.tags);
+  const Dictionary dictionary = ReadDictionary(
+      options.dictionary.empty() ? DefaultDictionaryPath() : fs::path(options.dictionary));
+  const auto codebook = std::make_shared<const MotionCodebook>(WithMirrored(ReadMotionCodebook(
+      options.motion_model.empty() ? DefaultMotionModelPath() : fs::path(options.motion_model))));
+  const PhotoLifter lifter(dictionary);
+  const auto source = OpenSource(options.inputs);
+  const Camera camera = CameraOf(options.inputs, source->size_px());
+  const std::vector<SightedFrame> frames = Sight(tags, options, source.get(), camera);
+  Progress progress("fit");
+  const TagFit fit = FitTags(frames, tags, camera, kLevelFromCam, lifter, codebook, options.fit,
+                             progress.Callback());
+  if (!fit.is_usable) {
+    fmt::print(stderr, "poselift: {}: {}\n", options.inputs.input, fit.message);
+    return kFailed;
+  }
+  WriteBodyTags(fit.tags, options.out);
+  Print(fit, tags);
+  if (!options.json.empty()) WriteJson(fit, options);
+  fmt::print("{} frames adjusted together; tags in {}\n", fit.num_frames, options.out);
+  return kDone;
+}
+
+}  // namespace
+
+CLI::App* AddTagsFit(CLI::App* tags, Run* run) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = tags->add_subcommand(
+      "fit", "Where the tags sit, and how long the bones are, from a short movement");
+  command->footer(
+      "Stand before the camera with all tags on, then, slowly: bend and turn arms and legs, twist\n"
+      "and bow the trunk, turn to both sides; half a minute.\n"
+      "Example:\n  poselift tags fit move.mkv --camera cam.yaml --tags tags.toml --out mine.toml");
+  AddTrackingInputs(command, &options->inputs);
+  command->add_option("--tags", options->tags, "Where they sit about (tags.toml)")->required();
+  command->add_option("--out", options->out, "The tags file to write")->required();
+  command->add_option("--seconds", options->seconds, "Of the movement")
+      ->check(IsNumber(1.0, 600.0))
+      ->capture_default_str();
+  command->add_option("--frames", options->fit.num_frames, "That are adjusted together")
+      ->check(CLI::Range(10, 1000))
+      ->capture_default_str();
+  command->add_option("--dictionary", options->dictionary, "Default: the one that ships");
+  command->add_option("--motion-model", options->motion_model, "Default: the one that ships");
+  command->add_option("--json", options->json, "Write the report to this file");
+  *run = [options] { return Fit(*options); };
+  return command;
+}
+
+}  // namespace poselift::cli
