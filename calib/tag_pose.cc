@@ -184,6 +184,27 @@ double RotationSigma(const TagPose& pose) {
   return std::sqrt(rotation.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff());
 }
 
+// The pose that looks the same from far away: its third axis mirrored at the picture plane.
+Eigen::Isometry3d Mirrored(const Eigen::Isometry3d& pose) {
+  const Eigen::DiagonalMatrix<double, 3> mirror(1.0, 1.0, -1.0);
+  const Eigen::Matrix3d sight_from_cam =
+      Eigen::Quaterniond::FromTwoVectors(pose.translation(), Eigen::Vector3d::UnitZ())
+          .toRotationMatrix();
+  Eigen::Isometry3d mirrored = pose;
+  mirrored.linear() = sight_from_cam.transpose() * mirror * sight_from_cam * pose.linear() * mirror;
+  return mirrored;
+}
+
+// Of one minimum alone: noise may have swallowed the other, that of the true pose.
+bool IsMirrorLikely(const Problem& problem, const TagPose& pose, const TagPoseOptions& options) {
+  const double more = problem.Residual(Mirrored(pose.cam_from_tag)).squaredNorm() -
+                      problem.Residual(pose.cam_from_tag).squaredNorm();
+  const double sigma = options.corner_sigma_px;
+  return 0.5 * more / (sigma * sigma) < std::log(options.ambiguous_odds) &&
+         Angle(pose.cam_from_tag.linear(), Mirrored(pose.cam_from_tag).linear()) >
+             options.uncertain_rad;
+}
+
 }  // namespace
 
 std::string TagPoseOptions::Validate() const {
@@ -219,8 +240,10 @@ TagPoses FindTagPoses(const Camera& camera, const Corners& corners_px, double si
   std::stable_sort(found.poses.begin(), found.poses.end(),
                    [](const TagPose& a, const TagPose& b) { return a.rms_px < b.rms_px; });
   if (!found.poses.empty())
-    found.is_ambiguous = ChooseTagPose(found, {}, options).is_ambiguous ||
-                         RotationSigma(found.poses[0]) > options.uncertain_rad;
+    found.is_ambiguous =
+        ChooseTagPose(found, {}, options).is_ambiguous ||
+        RotationSigma(found.poses[0]) > options.uncertain_rad ||
+        (found.poses.size() == 1 && IsMirrorLikely(problem, found.poses[0], options));
   return found;
 }
 

@@ -24,7 +24,7 @@ struct TagPoseOptions {
   // little noise, by 0.02 px at 4 grey levels of it; cloth, paper and blur add their share.
   double corner_sigma_px = 0.1;
   double ambiguous_odds = 100.0;  // ambiguous unless the better is likelier by this factor
-  double uncertain_rad = 0.3;
+  double uncertain_rad = 0.1;
 
   std::string Validate() const;
 };
@@ -32,8 +32,9 @@ struct TagPoseOptions {
 struct TagPoses {
   std::vector<TagPose> poses;  // the better first; empty when the corners show no tag
   // The corners alone do not tell how the tag is tilted: e of the second is so little more than
-  // that of the first, exp((e2 - e1) / (2 sigma^2)) below ambiguous_odds; or both are about to
-  // become one, whose rotation has a standard deviation above uncertain_rad.
+  // that of the first, exp((e2 - e1) / (2 sigma^2)) below ambiguous_odds; or there is but one
+  // and its mirror image is as likely, or its rotation has a standard deviation above
+  // uncertain_rad.
   bool is_ambiguous = false;
 };
 

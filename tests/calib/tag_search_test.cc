@@ -73,7 +73,6 @@ TEST(TagSearchTest, RegionsFindWhatFullFramesFindAtTheSamePlaces) {
 }
 
 TEST(TagSearchTest, PredictedTagsAreFoundWhereTheyWereNeverSeen) {
-  std::mt19937_64 rng = testing::TestRng();
   const TagFamily family("tag36h11");
   TagSearch search(family, {.full_every = 1000});
   cv::Mat first(480, 640, CV_8U, cv::Scalar(110)), second = first.clone();
