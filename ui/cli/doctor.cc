@@ -182,7 +182,7 @@ void Print(const SourceFacts& facts, cv::Size size_px) {
   fmt::print("  grey                 mean {:.0f} of 255, {:.1f} % near black, {:.1f} % saturated\n",
              facts.mean_grey, 100.0 * facts.dark_part, 100.0 * facts.saturated_part);
   if (!facts.tags || facts.tags->num_found == 0) return;
-  fmt::print("  tags                 {} in {} of the pictures", facts.tags->num_found,
+  fmt::print("  tags                 {} in the {} looked at", facts.tags->num_found,
              facts.samples.size());
   if (facts.tags->wider_edge_px > 0.0)
     fmt::print(", edges {:.1f} and {:.1f} px wide", facts.tags->sharper_edge_px,
