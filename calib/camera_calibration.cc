@@ -49,6 +49,15 @@ bool FindPoses(const CalibrationBoard& board, const ViewList& views, double loss
   return true;
 }
 
+// Views evenly among these, enough to start from.
+ViewList Some(const ViewList& views) {
+  constexpr size_t kEnough = 12;
+  const size_t step = (views.size() + kEnough - 1) / kEnough;
+  ViewList some;
+  for (size_t v = 0; v < views.size(); v += step) some.push_back(views[v]);
+  return some;
+}
+
 // The best of several starts: the focal length that the views say, and some that cameras have.
 std::optional<CalibrationState> Start(const CalibrationBoard& board, const ViewList& views,
                                       cv::Size size_px, LensModel lens) {
@@ -59,17 +68,19 @@ std::optional<CalibrationState> Start(const CalibrationBoard& board, const ViewL
   std::vector<double> focal_lengths_px = {0.6 * longer_px, 1.0 * longer_px, 2.0 * longer_px};
   if (const auto f_px = FocalLengthFromViews_px(homographies, size_px.width, size_px.height))
     focal_lengths_px.insert(focal_lengths_px.begin(), *f_px);
+  const ViewList some = Some(views);
   std::optional<CalibrationState> best;
   double least = std::numeric_limits<double>::infinity();
   for (const double f_px : focal_lengths_px) {
     CalibrationState state{PlainCamera(size_px, f_px), {}};
-    if (!FindPoses(board, views, kStartLoss_px, &state)) continue;
+    if (!FindPoses(board, some, kStartLoss_px, &state)) continue;
     const RefinementResult refined =
-        RefineCamera(board, views, {.lens = lens, .loss_px = kStartLoss_px}, &state);
+        RefineCamera(board, some, {.lens = lens, .loss_px = kStartLoss_px}, &state);
     if (!refined.is_done || refined.cost_px2 >= least * (1.0 - 1e-6)) continue;
     least = refined.cost_px2;
     best = state;
   }
+  if (best && !FindPoses(board, views, kStartLoss_px, &*best)) return std::nullopt;
   return best;
 }
 

@@ -59,7 +59,7 @@ CameraParameters JackknifeSigma(const CalibrationBoard& board,
                                 const std::vector<const BoardView*>& views,
                                 const CalibrationState& state, LensModel lens, double loss_px) {
   if (views.size() < kFewestViews) return CameraParameters::Zero();
-  const size_t num_groups = std::min<size_t>(views.size(), 20);
+  const size_t num_groups = std::min<size_t>(views.size(), 10);
   Eigen::Matrix<double, kNumCameraParameters, Eigen::Dynamic> estimates(
       kNumCameraParameters, static_cast<Eigen::Index>(num_groups));
   for (size_t group = 0; group < num_groups; ++group) {

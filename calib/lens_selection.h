@@ -18,7 +18,7 @@ LensModel SelectLensModel(const CalibrationBoard& board, const std::vector<const
                           double loss_px, CalibrationState state);
 
 // The jackknife's standard deviations of the camera's parameters: views left out one by one,
-// or in at most 20 groups. 0 with fewer than four views.
+// or in at most 10 groups. 0 with fewer than four views.
 CameraParameters JackknifeSigma(const CalibrationBoard& board,
                                 const std::vector<const BoardView*>& views,
                                 const CalibrationState& state, LensModel lens, double loss_px);
