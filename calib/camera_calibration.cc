@@ -37,16 +37,18 @@ Camera PlainCamera(cv::Size size_px, double focal_px) {
           {}};
 }
 
-// Poses of all views by this camera; none when a view has none.
-bool FindPoses(const CalibrationBoard& board, const ViewList& views, double loss_px,
-               CalibrationState* state) {
+// The pose of each view by this camera; views that can have none leave the list. False when
+// hardly any is left.
+bool FindPoses(const CalibrationBoard& board, ViewList* views, CalibrationState* state) {
+  ViewList placed;
   state->cam_from_board.clear();
-  for (const BoardView* view : views) {
-    const auto pose = FindBoardPose(board, *view, state->camera, loss_px);
-    if (!pose) return false;
-    state->cam_from_board.push_back(*pose);
-  }
-  return true;
+  for (const BoardView* view : *views)
+    if (const auto pose = FindBoardPose(board, *view, state->camera, kStartLoss_px)) {
+      placed.push_back(view);
+      state->cam_from_board.push_back(*pose);
+    }
+  *views = placed;
+  return views->size() >= 2;
 }
 
 // Views evenly among these, enough to start from.
@@ -59,28 +61,29 @@ ViewList Some(const ViewList& views) {
 }
 
 // The best of several starts: the focal length that the views say, and some that cameras have.
-std::optional<CalibrationState> Start(const CalibrationBoard& board, const ViewList& views,
-                                      cv::Size size_px, LensModel lens) {
+std::optional<CalibrationState> Start(const CalibrationBoard& board, cv::Size size_px,
+                                      LensModel lens, ViewList* views) {
   std::vector<Eigen::Matrix3d> homographies;
-  for (const BoardView* view : views)
+  for (const BoardView* view : *views)
     if (const auto homography = BoardHomography(board, *view)) homographies.push_back(*homography);
   const double longer_px = std::max(size_px.width, size_px.height);
   std::vector<double> focal_lengths_px = {0.6 * longer_px, 1.0 * longer_px, 2.0 * longer_px};
   if (const auto f_px = FocalLengthFromViews_px(homographies, size_px.width, size_px.height))
     focal_lengths_px.insert(focal_lengths_px.begin(), *f_px);
-  const ViewList some = Some(views);
   std::optional<CalibrationState> best;
   double least = std::numeric_limits<double>::infinity();
   for (const double f_px : focal_lengths_px) {
     CalibrationState state{PlainCamera(size_px, f_px), {}};
-    if (!FindPoses(board, some, kStartLoss_px, &state)) continue;
+    ViewList some = Some(*views);
+    if (!FindPoses(board, &some, &state)) continue;
     const RefinementResult refined =
         RefineCamera(board, some, {.lens = lens, .loss_px = kStartLoss_px}, &state);
-    if (!refined.is_done || refined.cost_px2 >= least * (1.0 - 1e-6)) continue;
-    least = refined.cost_px2;
+    const double cost_px2 = refined.cost_px2 / static_cast<double>(some.size());
+    if (!refined.is_done || cost_px2 >= least * (1.0 - 1e-6)) continue;
+    least = cost_px2;
     best = state;
   }
-  if (best && !FindPoses(board, views, kStartLoss_px, &*best)) return std::nullopt;
+  if (best && !FindPoses(board, views, &*best)) return std::nullopt;
   return best;
 }
 
@@ -142,7 +145,7 @@ bool DropBadViews(const CalibrationBoard& board, LensModel lens, const Calibrati
     state->cam_from_board.erase(state->cam_from_board.begin() +
                                 static_cast<std::ptrdiff_t>(*worst));
     // What was left may have been pulled into the other one of two like poses.
-    if (!FindPoses(board, *views, kStartLoss_px, state)) return false;
+    if (!FindPoses(board, views, state)) return false;
   }
   return false;
 }
@@ -273,9 +276,13 @@ CalibrationResult CalibrateCamera(const CalibrationBoard& board,
 
   result.status = CalibrationStatus::kFailed;
   const LensModel lens = options.lens.value_or(LensModel::kK1K2P1P2);
-  auto state = Start(board, used, size_px, lens);
+  auto state = Start(board, size_px, lens, &used);
   double& noise_px = result.corner_sigma_px;
   if (!state || !DropBadViews(board, lens, options, &used, &*state, &noise_px)) return result;
+  if (static_cast<int>(used.size()) < options.fewest_views) {
+    result.status = CalibrationStatus::kTooFewViews;
+    return result;
+  }
   advance(0.3);
   result.lens =
       options.lens ? *options.lens : SelectLensModel(board, used, LossOf_px(noise_px), *state);
