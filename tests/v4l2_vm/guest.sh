@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # What capture makes of the kernel's virtual cameras: run by run.sh, in the virtual machine.
-#   guest.sh PROBE POSELIFT
+#   guest.sh PROBE POSELIFT CLIP
 # vivid, /dev/video0, is a webcam with controls, faults at request among them; what a program
 # writes into v4l2loopback, /dev/video10, comes out of it as from a camera. PROBE is
-# poselift_capture_probe. A line a check; exits with 1 when one failed.
+# poselift_capture_probe, CLIP of poselift_make_clip. A line a check; exits with 1 when one failed.
 set -uo pipefail
 probe=$1
 poselift=$2
+clip=$3
 camera=/dev/video0
 loopback=/dev/video10
 
@@ -288,12 +289,18 @@ check_a_camera_that_stops_sending_is_told() {
   has '^timeout=1'
 }
 
-# Tags that are seen by a camera become angles in a file.
+# From pictures that a camera gives to angles in files. By emulation a frame may take a second.
 check_tags_are_tracked() {
-  if ! "$poselift" track --help | grep -q -- --device; then
-    echo "poselift has no track --device" >skipped
-    return
-  fi
+  write MJPG 640x480 "$clip"/*.jpg
+  "$poselift" track --device $loopback --size 640x480 --camera "$clip/camera.yaml" \
+    --tags "$clip/tags.toml" --seconds 15 --out run --json report.json >out 2>err
+  local frames ok tags
+  frames=$(sed -n 's/^ *"frames": \([0-9]*\),$/\1/p' report.json)
+  ok=$(sed -n 's/^ *"ok": \([0-9]*\),$/\1/p' report.json)
+  tags=$(sed -n 's/^ *"tags_per_frame": \([0-9]*\).*/\1/p' report.json)
+  ((frames >= 3 && 10 * ok > 8 * frames && tags > 7))
+  has '^MOTION' run/poses.bvh
+  (($(wc -l <run/angles.csv) > 3))
 }
 
 check cameras are listed
