@@ -24,15 +24,14 @@
 #include "src/input_error.h"
 #include "src/io/atomic_file.h"
 #include "src/io/body_tags_toml.h"
-#include "src/io/frame_ring.h"
 #include "src/io/poses_json.h"
 #include "src/io/udp_lines.h"
-#include "src/io/video_recorder.h"
 #include "ui/cli/command.h"
 #include "ui/cli/frame_rate.h"
 #include "ui/cli/latency_meter.h"
 #include "ui/cli/tag_session.h"
 #include "ui/cli/track_recording.h"
+#include "ui/cli/track_video.h"
 #include "ui/cli/tracking_inputs.h"
 
 namespace poselift::cli {
@@ -40,8 +39,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr double kStatusEvery_s = 1.0;
 
 struct Options {
   TrackingInputs inputs;
@@ -55,6 +52,7 @@ struct Options {
   bool stream = false;
   int udp_port = 0;
   bool record = false;
+  std::optional<double> before_s;  // the video begins so long before somebody is seen
   bool window = false;
 };
 
@@ -152,6 +150,21 @@ void Report(const Options& options, const Counts& counts, const LatencyMeter& la
     WriteFileAtomically(options.json, Facts(options, counts, latency).dump(2) + "\n");
 }
 
+// What the camera was asked for and what it gave; its raw video when it is wanted.
+std::optional<TrackVideo> StartVideo(const Options& options, const FrameSource& source) {
+  const auto* const live = dynamic_cast<const LiveFrameSource*>(&source);
+  if (live)
+    fmt::print(stderr, "camera: asked for {}, got {}\n", ModeText(live->camera().asked()),
+               ModeText(live->camera().given()));
+  if (!options.record) return std::nullopt;
+  if (!live)
+    throw InputError(options.inputs.input,
+                     "--record: found no camera, wanted one: this video is recorded already");
+  fs::create_directories(options.out);
+  return std::optional<TrackVideo>(std::in_place, fs::path(options.out) / "video.mkv",
+                                   live->camera().format(), options.before_s);
+}
+
 int Track(Options options) {
   const BodyTags tags = ReadBodyTags(options.tags);
   const Dictionary dictionary = ReadDictionary(
@@ -163,6 +176,7 @@ int Track(Options options) {
   const Camera camera = CameraOf(options.inputs, source->size_px());
   TagSession session(tags, camera, lifter, codebook, options.session);
   Outputs outputs(options, session.skeleton(), 1.0 / options.inputs.rate_hz);
+  std::optional<TrackVideo> video = StartVideo(options, *source);
   stop_asked = false;
   for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { stop_asked = true; });
 
@@ -171,6 +185,7 @@ int Track(Options options) {
   const auto take = [&] {
     while (const auto tracked = session.Take()) {
       Count(*tracked, &counts);
+      if (video && tracked->pose) video->Start();
       outputs.Write(*tracked);
     }
   };
@@ -179,6 +194,7 @@ int Track(Options options) {
     if (!frame || (options.seconds > 0.0 && frame->time_s >= options.seconds)) break;
     ++counts.frames;
     counts.lost += frame->num_lost;
+    if (video) video->Add(*frame);
     session.Add(*frame);
     take();
   }
@@ -186,6 +202,7 @@ int Track(Options options) {
   take();
   counts.seconds = Monotonic_s() - start_s;
   outputs.Close();
+  if (video) video->Close();
   Report(options, counts, outputs.latency());
   return counts.ok > 0 ? kDone : kFailed;
 }
@@ -225,11 +242,19 @@ CLI::App* AddTrack(CLI::App* app, Run* run) {
       ->capture_default_str();
   command->add_option("--dictionary", options->dictionary, "Default: the one that ships");
   command->add_option("--motion-model", options->motion_model, "Default: the one that ships");
+  command->add_flag("--record", options->inputs.keep_encoded,
+                    "Camera: record its video too, as it came (video.mkv in --out)");
+  command
+      ->add_option("--record-before-s", options->before_s,
+                   "The video begins so long before a person is first seen (default: at once)")
+      ->check(IsNumber(0.0, 60.0));
   command->add_flag("--window,!--no-window", options->window, "There is no window yet");
   command->add_option("--json", options->json, "Write the report to this file");
   command->callback([options] {
     if (options->out.empty() && !options->stream && options->udp_port == 0)
       throw CLI::RequiredError("--out, --stream or --udp");
+    options->record = options->inputs.keep_encoded;
+    if (options->record && options->out.empty()) throw CLI::RequiredError("--out, for --record");
   });
   *run = [options] { return Track(*options); };
   return command;

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+//
+// `poselift track` and `tags fit`, run as a user would, on pictures of a made-up person in
+// tags that are rendered here, with the models that ship. Checked: files and lines against
+// the truth, and what is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include "calib/tag_family.h"
+#include "lift/dictionary_file.h"
+#include "src/forward_kinematics.h"
+#include "src/io/body_tags_toml.h"
+#include "src/io/camera_yaml.h"
+#include "src/io/image.h"
+#include "src/io/motion_file.h"
+#include "src/io/poses_json.h"
+#include "src/level_camera.h"
+#include "src/testing/body_renderer.h"
+#include "tests/support/broken_input.h"
+#include "tests/support/run_program.h"
+#include "tests/support/support.h"
+#include "tests/support/tagged_person.h"
+
+namespace poselift {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::FileText;
+using ::testing::HasSubstr;
+using testing::ProgramRun;
+using testing::RunProgram;
+using testing::ScratchDir;
+using testing::WriteScratch;
+
+constexpr double kRate_hz = 15.0;
+const std::string kModels = " --dictionary " + testing::SourcePath("data/default.pldict").string() +
+                            " --motion-model " +
+                            testing::SourcePath("data/default.plmotion").string();
+
+class TrackProgram : public ::testing::Test {
+ protected:
+  TrackProgram() : person_(ReadDictionary(testing::SourcePath("data/default.pldict")).skeleton) {
+    WriteBodyTags(person_.worn, ScratchDir() / "tags.toml");
+    WriteCameraYaml(person_.camera, ScratchDir() / "camera.yaml");
+  }
+
+  void Render(int num_frames) const {
+    const TagFamily family(person_.worn.family);
+    const testing::BodyRenderer renderer(
+        person_.skeleton, person_.worn,
+        [&](int id) {
+          return testing::TagPrint{family.Image(id), family.cells_of_size()};
+        },
+        person_.camera, Eigen::Isometry3d(kLevelFromCam), {.noise_grey_levels = 2.0});
+    fs::create_directories(ScratchDir() / "frames");
+    for (int f = 0; f < num_frames; ++f) {
+      const auto frame = renderer.Render([&](double t) { return person_.PoseAt(t); }, f / kRate_hz);
+      WritePng(ScratchDir() / "frames" / ("f" + std::to_string(f) + ".png"), frame.picture);
+    }
+  }
+
+  double Error_mm(const FramePoses& frame) const {
+    const SkeletonPose truth = person_.PoseAt(*frame.time_s);
+    Pose3 joints = kLevelFromCam.toRotationMatrix() * JointPositions(person_.skeleton, truth);
+    joints.colwise() -= joints.col(joint::kPelvis).eval();
+    return 1e3 * (frame.people.front().joints_in_cam_m - joints).colwise().norm().mean();
+  }
+
+  testing::TaggedPerson person_;
+};
+
+TEST_F(TrackProgram, FollowsAFolderOfPicturesIntoFilesAndLines) {
+  constexpr int kFrames = 12;
+  Render(kFrames);
+  const ProgramRun run = RunProgram(
+      "track frames --fps 15 --camera camera.yaml --tags tags.toml --out run --stream --json "
+      "report.json" +
+      kModels);
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("12 frames"));
+  EXPECT_THAT(run.err, HasSubstr("12 ok, 0 filled, 0 not known"));
+  EXPECT_THAT(FileText(ScratchDir() / "report.json"), HasSubstr("\"ok\": 12"));
+
+  const Poses poses = ReadPosesJson(ScratchDir() / "run/poses.json");
+  ASSERT_EQ(poses.frames.size(), static_cast<size_t>(kFrames));
+  for (const FramePoses& frame : poses.frames) EXPECT_LT(Error_mm(frame), 60.0);
+  EXPECT_EQ(ReadMotion(ScratchDir() / "run/poses.bvh").frames.size(), 23U);  // 11 / 15 s at 30 Hz
+  EXPECT_TRUE(fs::exists(ScratchDir() / "run/angles.csv"));
+  EXPECT_TRUE(fs::exists(ScratchDir() / "run/angles_sigma.csv"));
+
+  std::istringstream lines(run.out);
+  std::string line;
+  int count = 0;
+  while (std::getline(lines, line)) {
+    const FramePoses frame = ReadFramePosesLine(line, "stream", ++count);
+    EXPECT_LT((frame.people.front().joints_in_cam_m -
+               poses.frames[static_cast<size_t>(count - 1)].people.front().joints_in_cam_m)
+                  .norm(),
+              1e-5);
+  }
+  EXPECT_EQ(count, kFrames);
+}
+
+TEST_F(TrackProgram, WithoutACameraItTakesAFieldOfView) {
+  Render(5);
+  const ProgramRun run =
+      RunProgram("track frames --fps 15 --fov-deg 70.8 --tags tags.toml --out run" + kModels);
+  ASSERT_EQ(run.code, 0) << run.err;
+  for (const FramePoses& frame : ReadPosesJson(ScratchDir() / "run/poses.json").frames)
+    EXPECT_LT(Error_mm(frame), 80.0);
+}
+
+TEST_F(TrackProgram, FitsTagsThatTrackThenReads) {
+  Render(20);
+  const ProgramRun fit = RunProgram(
+      "tags fit frames --fps 15 --camera camera.yaml --tags tags.toml --out mine.toml "
+      "--frames 15" +
+      kModels);
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  EXPECT_THAT(fit.out, HasSubstr("adjusted together; tags in mine.toml"));
+  const BodyTags found = ReadBodyTags(ScratchDir() / "mine.toml");
+  EXPECT_EQ(found.tags.size(), person_.worn.tags.size());
+  EXPECT_EQ(found.bone_lengths_m.size(), static_cast<size_t>(kNumJoints - 1));
+  const ProgramRun run =
+      RunProgram("track frames --fps 15 --camera camera.yaml --tags mine.toml --out run" + kModels);
+  ASSERT_EQ(run.code, 0) << run.err;
+  for (const FramePoses& frame : ReadPosesJson(ScratchDir() / "run/poses.json").frames)
+    EXPECT_LT(Error_mm(frame), 60.0);
+}
+
+TEST_F(TrackProgram, WhatIsWrongIsRefusedBeforeAnythingIsWritten) {
+  fs::create_directories(ScratchDir() / "frames");
+  WritePng(ScratchDir() / "frames/a.png", cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(90)));
+  const auto expect = [&](const std::string& arguments, int code, const std::string& text) {
+    const ProgramRun run = RunProgram(arguments + kModels);
+    EXPECT_EQ(run.code, code) << arguments << "\n" << run.err;
+    EXPECT_THAT(run.err, HasSubstr(text)) << arguments;
+    EXPECT_FALSE(fs::exists(ScratchDir() / "run")) << arguments;
+  };
+  expect("track frames --tags nothing.toml --out run", 3, "nothing.toml");
+  expect("track nothing --tags tags.toml --out run", 3, "nothing");
+  expect("track frames --tags tags.toml --camera camera.yaml --out run", 3,
+         "a camera of 1280 x 720 pixels and pictures of 640 x 480");
+  expect("track frames --tags tags.toml", 2, "--out, --stream or --udp");
+  expect("track frames --tags tags.toml --out run --record", 3, "recorded already");
+  WriteScratch("broken.toml", "family = \"tag36h11\"\n[[tag]]\nid = 1\nsize_mm = \"x\"\n");
+  expect("track frames --tags broken.toml --out run", 3, "broken.toml:4");
+}
+
+TEST_F(TrackProgram, NobodySeenIsAFailureThatTheFilesTell) {
+  fs::create_directories(ScratchDir() / "frames");
+  for (const char* name : {"frames/a.png", "frames/b.png"})
+    WritePng(ScratchDir() / name, cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(90)));
+  const ProgramRun run = RunProgram("track frames --tags tags.toml --out run" + kModels);
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.out, HasSubstr("0 ok, 0 filled, 2 not known"));
+  EXPECT_EQ(ReadPosesJson(ScratchDir() / "run/poses.json").frames.at(1).people.front().status,
+            "not known");
+}
+
+}  // namespace
+}  // namespace poselift
