@@ -21,6 +21,13 @@ TagDetectorOptions FullOptions(const TagSearchOptions& options) {
   return full;
 }
 
+// Threads that wait for one another in every small region cost more than they bring.
+TagDetectorOptions RegionOptions(const TagSearchOptions& options) {
+  TagDetectorOptions region = options.detector;
+  region.threads = 1;
+  return region;
+}
+
 cv::Rect RegionAround(const Corners& corners_px, const TagSearchOptions& options) {
   double edge_px = 0.0;
   for (int i = 0; i < 4; ++i)
@@ -66,7 +73,7 @@ std::string TagSearchOptions::Validate() const {
 
 TagSearch::TagSearch(const TagFamily& family, const TagSearchOptions& options)
     : options_(options),
-      in_regions_(family, options.detector),
+      in_regions_(family, RegionOptions(options)),
       in_full_(family, FullOptions(options)) {}
 
 void TagSearch::Reset() {

@@ -13,7 +13,7 @@
 namespace poselift {
 
 struct TagSearchOptions {
-  TagDetectorOptions detector;  // decimate: of the regions
+  TagDetectorOptions detector;  // decimate: of the regions; threads: of full frames
   double full_decimate = 1.0;   // of full frames
   int full_every = 10;          // frames; 1: always
   // A region reaches around predicted corners by this part of the tag's longest side, and by

@@ -50,6 +50,7 @@ BENCHMARK(TagsFull)
     ->Name("tags_720p/full/decimate")
     ->Arg(1)
     ->Arg(2)
+    ->MeasureProcessCPUTime()
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 
@@ -62,6 +63,7 @@ BENCHMARK(TagsRegions)
     ->Name("tags_720p/regions/full_decimate")
     ->Arg(1)
     ->Arg(2)
+    ->MeasureProcessCPUTime()
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 

@@ -4,6 +4,7 @@
 // `poselift track` and `tags fit`, run as a user would, on pictures of a made-up person in
 // tags that are rendered here, with the models that ship. Checked: files and lines against
 // the truth, and what is refused.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@
 #include "src/io/poses_json.h"
 #include "src/level_camera.h"
 #include "src/testing/body_renderer.h"
-#include "tests/support/broken_input.h"
+#include "tests/support/mutation.h"
 #include "tests/support/run_program.h"
 #include "tests/support/support.h"
 #include "tests/support/tagged_person.h"
@@ -59,7 +60,7 @@ class TrackProgram : public ::testing::Test {
     fs::create_directories(ScratchDir() / "frames");
     for (int f = 0; f < num_frames; ++f) {
       const auto frame = renderer.Render([&](double t) { return person_.PoseAt(t); }, f / kRate_hz);
-      WritePng(ScratchDir() / "frames" / ("f" + std::to_string(f) + ".png"), frame.picture);
+      WritePng(ScratchDir() / "frames" / fmt::format("f{}.png", f), frame.picture);
     }
   }
 
