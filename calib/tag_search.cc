@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "src/input_error.h"
 
@@ -72,9 +73,10 @@ std::string TagSearchOptions::Validate() const {
 }
 
 TagSearch::TagSearch(const TagFamily& family, const TagSearchOptions& options)
-    : options_(options),
-      in_regions_(family, RegionOptions(options)),
-      in_full_(family, FullOptions(options)) {}
+    : options_(options), in_full_(family, FullOptions(options)) {
+  for (int i = 0; i < options.detector.threads; ++i)
+    in_regions_.emplace_back(family, RegionOptions(options));
+}
 
 void TagSearch::Reset() {
   seen_.clear();
@@ -140,14 +142,23 @@ bool TagSearch::IsOneMissing(const std::vector<TagDetection>& found) const {
 
 std::vector<TagDetection> TagSearch::DetectIn(const cv::Mat& grey,
                                               const std::vector<cv::Rect>& regions) {
+  std::vector<std::vector<TagDetection>> found_by(in_regions_.size());
+  const auto detect_every = [&](size_t worker) {
+    for (size_t i = worker; i < regions.size(); i += in_regions_.size())
+      for (TagDetection& tag : in_regions_[worker].Detect(grey(regions[i]))) {
+        const Eigen::Vector2d corner_px(regions[i].x, regions[i].y);
+        tag.corners_px.colwise() += corner_px;
+        tag.centre_px += corner_px;
+        found_by[worker].push_back(tag);
+      }
+  };
+  std::vector<std::thread> workers;
+  for (size_t w = 1; w < std::min(in_regions_.size(), regions.size()); ++w)
+    workers.emplace_back(detect_every, w);
+  detect_every(0);
+  for (std::thread& worker : workers) worker.join();
   std::vector<TagDetection> found;
-  for (const cv::Rect& region : regions)
-    for (TagDetection& tag : in_regions_.Detect(grey(region))) {
-      const Eigen::Vector2d corner_px(region.x, region.y);
-      tag.corners_px.colwise() += corner_px;
-      tag.centre_px += corner_px;
-      found.push_back(tag);
-    }
+  for (const auto& some : found_by) found.insert(found.end(), some.begin(), some.end());
   std::sort(found.begin(), found.end(), IsBetter);
   const auto same_id = [](const TagDetection& a, const TagDetection& b) { return a.id == b.id; };
   found.erase(std::unique(found.begin(), found.end(), same_id), found.end());

@@ -13,9 +13,10 @@
 namespace poselift {
 
 struct TagSearchOptions {
-  TagDetectorOptions detector;  // decimate: of the regions; threads: of full frames
-  double full_decimate = 1.0;   // of full frames
-  int full_every = 10;          // frames; 1: always
+  TagDetectorOptions
+      detector;  // decimate: of the regions; threads: of full frames, and that share regions
+  double full_decimate = 1.0;  // of full frames
+  int full_every = 10;         // frames; 1: always
   // A region reaches around predicted corners by this part of the tag's longest side, and by
   // min_margin_px at least.
   double margin = 0.75;
@@ -58,7 +59,8 @@ class TagSearch {
   void Remember(const std::vector<TagDetection>& found);
 
   TagSearchOptions options_;
-  TagDetector in_regions_, in_full_;
+  TagDetector in_full_;
+  std::vector<TagDetector> in_regions_;  // one a thread
   std::map<int, Seen> seen_;
   int frames_since_full_ = 0;
   bool last_was_full_ = false;
