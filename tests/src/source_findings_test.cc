@@ -163,7 +163,7 @@ TEST(SourceFacts, AreThoseOfTheFrames) {
   options.max_waiting = 1000;
   LiveFrameSource source(camera.path, options, &camera);
   camera.AllowAndWait(101);
-  const SourceFacts facts = WatchSource(&source, 4.0);
+  const SourceFacts facts = WatchSource(&source, 3.99);
   EXPECT_EQ(facts.num_frames, 101);
   EXPECT_NEAR(facts.rate_hz(), 25.0, 0.01);
   EXPECT_NEAR(facts.longest_gap_s, 0.04, 1e-4);
