@@ -152,9 +152,9 @@ TEST(SourceFacts, AreThoseOfTheFrames) {
   camera.Allow(0);
   // A tenth of each picture is white, three tenths are black; two frames are lost after 50.
   camera.frame = [](int i) {
-    std::string bytes(800, '\x64');
-    std::fill_n(bytes.begin(), 80, '\xff');
-    std::fill_n(bytes.begin() + 80, 240, '\0');
+    std::string bytes;
+    for (int row = 0; row < 20; ++row)
+      bytes += std::string(4, '\xff') + std::string(12, '\0') + std::string(24, '\x64');
     return FakeBuffer{bytes, static_cast<uint32_t>(i < 50 ? 1 + i : 3 + i), 0};
   };
   LiveOptions options;
