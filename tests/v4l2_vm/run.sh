@@ -27,7 +27,7 @@ printf '%q ' env POSELIFT_VM_CACHE="$cache" "$@" >"$work/share/run"
 timeout "$seconds" qemu-system-x86_64 -M q35 -accel tcg,thread=multi -cpu max -smp 2 -m 2048 \
   -nodefaults -no-user-config -display none -no-reboot -serial stdio \
   -kernel "$cache/vmlinuz" -initrd "$work/initrd.cpio" \
-  -append "console=ttyS0 loglevel=2 panic=-1 mitigations=off nokaslr tsc=reliable" \
+  -append "console=ttyS0 loglevel=2 panic=-1 mitigations=off nokaslr tsc=reliable no_timer_check" \
   -fsdev local,id=host,path=/,security_model=none,readonly=on,multidevs=remap \
   -device virtio-9p-pci,fsdev=host,mount_tag=host \
   -fsdev local,id=share,path="$work/share",security_model=none,multidevs=remap \

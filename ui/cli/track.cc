@@ -175,8 +175,8 @@ int Track(Options options) {
   const std::unique_ptr<FrameSource> source = OpenSource(options.inputs);
   const Camera camera = CameraOf(options.inputs, source->size_px());
   TagSession session(tags, camera, lifter, codebook, options.session);
-  Outputs outputs(options, session.skeleton(), 1.0 / options.inputs.rate_hz);
   std::optional<TrackVideo> video = StartVideo(options, *source);
+  Outputs outputs(options, session.skeleton(), 1.0 / options.inputs.rate_hz);
   stop_asked = false;
   for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { stop_asked = true; });
 
