@@ -21,7 +21,7 @@ check_packages=(clang-format-14 codespell shellcheck)
 # has cameras for capture, fed by ffmpeg.
 # shellcheck disable=SC2034
 optional_test_packages=(
-  blender
+  blender poppler-utils
   qemu-system-x86 busybox-static cpio kmod make v4l-utils ffmpeg
 )
 
