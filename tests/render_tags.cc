@@ -110,6 +110,7 @@ BodyTags Wear(const Options& options, const Skeleton& skeleton) {
   for (int j = 1; j < kNumJoints; ++j) {
     const JointInfo& joint = Joints()[static_cast<size_t>(j)];
     const auto bone = skeleton.FindBone(joint.cmu_bone);
+    if (!bone) continue;
     const double length_m = skeleton.bones[static_cast<size_t>(*bone)].tip_m.norm();
     tags.bone_lengths_m.emplace_back(joint.name, length_m);
   }
