@@ -177,11 +177,11 @@ int Evaluate(const Options& options) {
       rows.push_back(std::move(row));
   const TrackExperimentOptions& experiment = options.experiment;
   fmt::print(
-      "rendered at {:g} m, 1280 x 720, tags of {:g} mm, exposure {:.1f} ms, noise {:g} grey "
+      "rendered at {:g} m, 1280 x 720, {} tags of {:g} mm, exposure {:.1f} ms, noise {:g} grey "
       "levels; "
       "tags {:g} mm and {:.1f} degrees off what is said; seed {}\n",
-      experiment.distance_m, 1e3 * experiment.tag_size_m, 1e3 * experiment.exposure_s,
-      experiment.noise_grey_levels, 1e3 * experiment.misplaced_m,
+      experiment.distance_m, experiment.around ? 40 : 13, 1e3 * experiment.tag_size_m,
+      1e3 * experiment.exposure_s, experiment.noise_grey_levels, 1e3 * experiment.misplaced_m,
       experiment.misplaced_rad * 180.0 / 3.14159265, experiment.seed);
   Print(rows);
   if (!options.json.empty()) WriteJson(rows, options);
@@ -209,6 +209,7 @@ CLI::App* AddEvaluateTrack(CLI::App* app, Run* run) {
   command->add_option("--tag-size-m", experiment.tag_size_m, "Of all tags")
       ->check(IsNumber(0.01, 0.3))
       ->capture_default_str();
+  command->add_flag("--around", experiment.around, "40 tags on all sides, not 13 in front");
   command->add_option("--exposure-s", experiment.exposure_s, "Of each frame: motion blur")
       ->check(IsNumber(0.0, 0.033))
       ->capture_default_str();

@@ -138,7 +138,8 @@ double DetectedShare(const TaggedVideo& video) {
 }  // namespace
 
 BodyTags DressFor(const Skeleton& skeleton, const TrackExperimentOptions& options) {
-  return testing::DefaultTagPlacement(skeleton, {.size_m = options.tag_size_m});
+  return testing::DefaultTagPlacement(skeleton,
+                                      {.size_m = options.tag_size_m, .around = options.around});
 }
 
 BodyTags Misplaced(const BodyTags& worn, const TrackExperimentOptions& options) {
