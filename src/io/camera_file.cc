@@ -26,23 +26,24 @@ bool HasLine(const std::string& text, std::string_view beginning) {
 
 }  // namespace
 
-CameraFormat FormatOfCameraFile(const std::filesystem::path& path) {
+CameraFileFormat FormatOfCameraFile(const std::filesystem::path& path) {
   const std::string text = ReadTextFile(path);
   if (HasLine(text, "camera_matrix") || HasLine(text, "image_width"))
-    return CameraFormat::kOpenCvOrRos;
-  if (HasLine(text, "camera_model:") || HasLine(text, "intrinsics:")) return CameraFormat::kKalibr;
-  if (HasLine(text, "[") && HasLine(text, "matrix")) return CameraFormat::kAnipose;
-  if (EqualsIgnoringCase(path.extension().string(), ".toml")) return CameraFormat::kAnipose;
-  return CameraFormat::kOpenCvOrRos;
+    return CameraFileFormat::kOpenCvOrRos;
+  if (HasLine(text, "camera_model:") || HasLine(text, "intrinsics:"))
+    return CameraFileFormat::kKalibr;
+  if (HasLine(text, "[") && HasLine(text, "matrix")) return CameraFileFormat::kAnipose;
+  if (EqualsIgnoringCase(path.extension().string(), ".toml")) return CameraFileFormat::kAnipose;
+  return CameraFileFormat::kOpenCvOrRos;
 }
 
-const char* CameraFormatName(CameraFormat format) {
+const char* CameraFileFormatName(CameraFileFormat format) {
   switch (format) {
-    case CameraFormat::kKalibr:
+    case CameraFileFormat::kKalibr:
       return "Kalibr camchain";
-    case CameraFormat::kAnipose:
+    case CameraFileFormat::kAnipose:
       return "anipose calibration";
-    case CameraFormat::kOpenCvOrRos:
+    case CameraFileFormat::kOpenCvOrRos:
       break;
   }
   return "OpenCV or ROS camera";
@@ -50,11 +51,11 @@ const char* CameraFormatName(CameraFormat format) {
 
 std::vector<std::string> CameraNames(const std::filesystem::path& path) {
   switch (FormatOfCameraFile(path)) {
-    case CameraFormat::kKalibr:
+    case CameraFileFormat::kKalibr:
       return ReadKalibrCameras(path, "").names;
-    case CameraFormat::kAnipose:
+    case CameraFileFormat::kAnipose:
       return ReadAniposeCameras(path, "").names;
-    case CameraFormat::kOpenCvOrRos:
+    case CameraFileFormat::kOpenCvOrRos:
       break;
   }
   return {""};
@@ -62,11 +63,11 @@ std::vector<std::string> CameraNames(const std::filesystem::path& path) {
 
 Camera ReadCamera(const std::filesystem::path& path, const std::string& name) {
   switch (FormatOfCameraFile(path)) {
-    case CameraFormat::kKalibr:
+    case CameraFileFormat::kKalibr:
       return ReadKalibrCameras(path, name).chosen.camera;
-    case CameraFormat::kAnipose:
+    case CameraFileFormat::kAnipose:
       return ReadAniposeCameras(path, name).chosen.camera;
-    case CameraFormat::kOpenCvOrRos:
+    case CameraFileFormat::kOpenCvOrRos:
       break;
   }
   FindCameraName(path, {""}, name);

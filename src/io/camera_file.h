@@ -11,13 +11,13 @@
 namespace poselift {
 
 // Files of cameras, told apart by what is in them.
-enum class CameraFormat {
+enum class CameraFileFormat {
   kOpenCvOrRos,  // YAML: camera_yaml.h
   kKalibr,       // YAML, camchain: cam0, cam1, ...; camera_model pinhole with radtan or none
   kAnipose,      // TOML, calibration.toml: [cam_0], ...; not with fisheye = true
 };
-CameraFormat FormatOfCameraFile(const std::filesystem::path& path);
-const char* CameraFormatName(CameraFormat format);
+CameraFileFormat FormatOfCameraFile(const std::filesystem::path& path);
+const char* CameraFileFormatName(CameraFileFormat format);
 
 // The cameras of a file by name, in its order: cam0 of Kalibr; of anipose its `name`, or that
 // of the table. Of a file that holds one camera without a name: the empty name.

@@ -81,7 +81,7 @@ std::string Complaint(const std::string& file, const std::string& text,
 
 TEST(CameraFile, KalibrsFirstCameraIsReadUnlessAnotherIsNamed) {
   const auto path = WriteScratch("camchain.yaml", kKalibr);
-  EXPECT_EQ(FormatOfCameraFile(path), CameraFormat::kKalibr);
+  EXPECT_EQ(FormatOfCameraFile(path), CameraFileFormat::kKalibr);
   EXPECT_THAT(CameraNames(path), ElementsAre("cam0", "cam1"));
   const Camera camera = ReadCamera(path);
   EXPECT_EQ(camera.width_px, 752);
@@ -100,7 +100,7 @@ TEST(CameraFile, KalibrsFirstCameraIsReadUnlessAnotherIsNamed) {
 
 TEST(CameraFile, AniposesCamerasAreInTheOrderOfTheFile) {
   const auto path = WriteScratch("calibration.toml", kAnipose);
-  EXPECT_EQ(FormatOfCameraFile(path), CameraFormat::kAnipose);
+  EXPECT_EQ(FormatOfCameraFile(path), CameraFileFormat::kAnipose);
   EXPECT_THAT(CameraNames(path), ElementsAre("B", "A"));
   const Camera camera = ReadCamera(path);
   EXPECT_EQ(camera.width_px, 1280);
@@ -123,7 +123,7 @@ TEST(CameraFile, RosAndOpenCvFilesAreWrittenAndRead) {
   WriteCameraInfoYaml(camera, "my webcam", ScratchDir() / "info.yaml");
   WriteCameraYaml(camera, ScratchDir() / "opencv.yaml");
   for (const char* file : {"info.yaml", "opencv.yaml"}) {
-    EXPECT_EQ(FormatOfCameraFile(ScratchDir() / file), CameraFormat::kOpenCvOrRos);
+    EXPECT_EQ(FormatOfCameraFile(ScratchDir() / file), CameraFileFormat::kOpenCvOrRos);
     const Camera read = ReadCamera(ScratchDir() / file);
     EXPECT_EQ(read.width_px, 1280);
     EXPECT_EQ(read.fy_px, camera.fy_px);

@@ -33,7 +33,7 @@ bool IsCamera(const std::filesystem::path& path, std::string_view head) {
 
 Json DescribeCamera(const std::filesystem::path& path) {
   const Camera camera = ReadCamera(path);
-  Json facts = {{"format", CameraFormatName(FormatOfCameraFile(path))}};
+  Json facts = {{"format", CameraFileFormatName(FormatOfCameraFile(path))}};
   if (const auto names = CameraNames(path); !names.front().empty()) {
     facts["cameras"] = names;
     facts["camera"] = names.front();

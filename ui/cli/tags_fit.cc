@@ -7,16 +7,12 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "calib/tag_search.h"
-#include "lift/default_dictionary.h"
-#include "lift/dictionary_file.h"
-#include "lift/temporal/motion_codebook_file.h"
 #include "lift/tracking/tag_fit.h"
 #include "src/io/atomic_file.h"
 #include "src/io/body_tags_toml.h"
@@ -30,12 +26,11 @@
 namespace poselift::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct Options {
   TrackingInputs inputs;
-  std::string tags, out, json, dictionary, motion_model;
+  std::string tags, out, json;
   double seconds = 60.0;
   TagFitOptions fit;
 };
@@ -93,17 +88,14 @@ void WriteJson(const TagFit& fit, const Options& options) {
 
 int Fit(const Options& options) {
   const BodyTags tags = ReadBodyTags(options.tags);
-  const Dictionary dictionary = ReadDictionary(
-      options.dictionary.empty() ? DefaultDictionaryPath() : fs::path(options.dictionary));
-  const auto codebook = std::make_shared<const MotionCodebook>(WithMirrored(ReadMotionCodebook(
-      options.motion_model.empty() ? DefaultMotionModelPath() : fs::path(options.motion_model))));
-  const PhotoLifter lifter(dictionary);
+  const TrackingModels models = ReadModels(options.inputs);
+  const PhotoLifter lifter(models.dictionary);
   const auto source = OpenSource(options.inputs);
   const Camera camera = CameraOf(options.inputs, source->size_px());
   const std::vector<SightedFrame> frames = Sight(tags, options, source.get(), camera);
   Progress progress("fit");
-  const TagFit fit = FitTags(frames, tags, camera, kLevelFromCam, lifter, codebook, options.fit,
-                             progress.Callback());
+  const TagFit fit = FitTags(frames, tags, camera, kLevelFromCam, lifter, models.codebook,
+                             options.fit, progress.Callback());
   if (!fit.is_usable) {
     fmt::print(stderr, "poselift: {}: {}\n", options.inputs.input, fit.message);
     return kFailed;
@@ -134,8 +126,6 @@ CLI::App* AddTagsFit(CLI::App* tags, Run* run) {
   command->add_option("--frames", options->fit.num_frames, "That are adjusted together")
       ->check(CLI::Range(10, 1000))
       ->capture_default_str();
-  command->add_option("--dictionary", options->dictionary, "Default: the one that ships");
-  command->add_option("--motion-model", options->motion_model, "Default: the one that ships");
   command->add_option("--json", options->json, "Write the report to this file");
   *run = [options] { return Fit(*options); };
   return command;

@@ -16,10 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "lift/default_dictionary.h"
-#include "lift/dictionary_file.h"
 #include "lift/poses_to_motion.h"
-#include "lift/temporal/motion_codebook_file.h"
 #include "src/capture/live_frame_source.h"
 #include "src/input_error.h"
 #include "src/io/atomic_file.h"
@@ -44,8 +41,6 @@ struct Options {
   TrackingInputs inputs;
   std::string tags;
   std::string out;
-  std::string dictionary;
-  std::string motion_model;
   std::string json;
   TagSessionOptions session;
   double seconds = 0.0;
@@ -167,14 +162,11 @@ std::optional<TrackVideo> StartVideo(const Options& options, const FrameSource& 
 
 int Track(Options options) {
   const BodyTags tags = ReadBodyTags(options.tags);
-  const Dictionary dictionary = ReadDictionary(
-      options.dictionary.empty() ? DefaultDictionaryPath() : fs::path(options.dictionary));
-  auto codebook = std::make_shared<const MotionCodebook>(WithMirrored(ReadMotionCodebook(
-      options.motion_model.empty() ? DefaultMotionModelPath() : fs::path(options.motion_model))));
-  const PhotoLifter lifter(dictionary);
+  const TrackingModels models = ReadModels(options.inputs);
+  const PhotoLifter lifter(models.dictionary);
   const std::unique_ptr<FrameSource> source = OpenSource(options.inputs);
   const Camera camera = CameraOf(options.inputs, source->size_px());
-  TagSession session(tags, camera, lifter, codebook, options.session);
+  TagSession session(tags, camera, lifter, models.codebook, options.session);
   std::optional<TrackVideo> video = StartVideo(options, *source);
   Outputs outputs(options, session.skeleton(), 1.0 / options.inputs.rate_hz);
   stop_asked = false;
@@ -240,8 +232,6 @@ CLI::App* AddTrack(CLI::App* app, Run* run) {
   command->add_option("--threads", options->session.search.detector.threads, "That look for tags")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
-  command->add_option("--dictionary", options->dictionary, "Default: the one that ships");
-  command->add_option("--motion-model", options->motion_model, "Default: the one that ships");
   command->add_flag("--record", options->inputs.keep_encoded,
                     "Camera: record its video too, as it came (video.mkv in --out)");
   command

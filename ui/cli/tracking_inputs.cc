@@ -8,12 +8,17 @@
 #include <CLI/Option.hpp>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
+#include <utility>
 
+#include "lift/default_dictionary.h"
+#include "lift/dictionary_file.h"
+#include "lift/temporal/motion_codebook_file.h"
 #include "src/capture/open_frame_source.h"
 #include "src/capture/paced_frame_source.h"
 #include "src/input_error.h"
-#include "src/io/camera_yaml.h"
+#include "src/io/camera_file.h"
 #include "ui/cli/frame_rate.h"
 
 namespace poselift::cli {
@@ -57,6 +62,17 @@ void AddTrackingInputs(CLI::App* command, TrackingInputs* inputs) {
       ->capture_default_str();
   command->add_flag("--realtime", inputs->realtime,
                     "Video: as a camera would give it, late frames lost");
+  command->add_option("--dictionary", inputs->dictionary, "Default: the one that ships");
+  command->add_option("--motion-model", inputs->motion_model, "Default: the one that ships");
+}
+
+TrackingModels ReadModels(const TrackingInputs& inputs) {
+  namespace fs = std::filesystem;
+  Dictionary dictionary = ReadDictionary(inputs.dictionary.empty() ? DefaultDictionaryPath()
+                                                                   : fs::path(inputs.dictionary));
+  MotionCodebook codebook = ReadMotionCodebook(
+      inputs.motion_model.empty() ? DefaultMotionModelPath() : fs::path(inputs.motion_model));
+  return {std::move(dictionary), std::make_shared<const MotionCodebook>(WithMirrored(codebook))};
 }
 
 std::unique_ptr<FrameSource> OpenSource(const TrackingInputs& inputs) {
@@ -82,7 +98,7 @@ Camera CameraOf(const TrackingInputs& inputs, cv::Size size_px) {
             0.5 * size_px.width - 0.5,
             0.5 * size_px.height - 0.5};
   }
-  Camera camera = ReadCameraYaml(inputs.camera);
+  Camera camera = ReadCamera(inputs.camera);
   const double scale = static_cast<double>(size_px.width) / camera.width_px;
   if (std::abs(scale * camera.height_px - size_px.height) > 1.0)
     throw InputError(inputs.camera,

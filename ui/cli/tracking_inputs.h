@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "lift/dictionary.h"
+#include "lift/temporal/motion_codebook.h"
 #include "src/camera.h"
 #include "src/io/frame_source.h"
 
@@ -27,9 +29,17 @@ struct TrackingInputs {
   double folder_rate_hz = 30.0;
   bool realtime = false;
   bool keep_encoded = false;
+  std::string dictionary, motion_model;
 };
 
 void AddTrackingInputs(CLI::App* command, TrackingInputs* inputs);
+
+// What is learned: the models that ship, unless others are named; with mirror images.
+struct TrackingModels {
+  Dictionary dictionary;
+  std::shared_ptr<const MotionCodebook> codebook;
+};
+TrackingModels ReadModels(const TrackingInputs& inputs);
 
 // Grey pictures. Throws InputError for a source that cannot be opened.
 std::unique_ptr<FrameSource> OpenSource(const TrackingInputs& inputs);
