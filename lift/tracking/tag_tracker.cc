@@ -119,6 +119,10 @@ TagTracker::TagTracker(const Skeleton& skeleton, const BodyTags& tags, const Cam
       options_(options),
       filter_(codebook, skeleton, options.filter) {
   if (const std::string error = options_.Validate(); !error.empty()) throw InputError(error);
+  if (!IsSameBody(standard_.skeleton, codebook->skeleton))
+    throw InputError(
+        "found a dictionary and a motion model of different skeletons, wanted one skeleton: learn "
+        "both from the same motions");
   for (const BodyTag& tag : tags.tags) {
     Worn worn{.tag = tag};
     if (tag.on_bone) worn.bone = BoneOf(body_, tag);

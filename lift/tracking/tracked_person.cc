@@ -25,6 +25,8 @@ TrackedPerson::TrackedPerson(const Skeleton& skeleton, const Camera& camera,
 PersonPose TrackedPerson::Convert(const TrackedFrame& frame) {
   PersonPose person;
   const SmoothedFrame& body = frame.body;
+  for (const TrackedTag& tag : frame.tags)
+    person.tags.push_back({tag.id, tag.error_px, tag.is_believed, tag.is_ambiguous});
   if (body.kind == Kind::kNotKnown) {
     person.status = kUnknownStatus;
     person.message = "too few tags are seen";

@@ -211,6 +211,8 @@ TEST_F(TagTrackerTest, PosesAreBeforeTheCameraAsPosesJsonHasThem) {
   tracker.Add(0.0, Seen(0));
   const PersonPose person = converter.Convert(*tracker.Take());
   EXPECT_EQ(person.status, "ok");
+  EXPECT_GE(person.tags.size(), 10U);
+  for (const PoseTag& tag : person.tags) EXPECT_TRUE(tag.believed && tag.error_px < 1.0) << tag.id;
   EXPECT_LT((person.pelvis_in_cam_m - kLevelFromCam * person_.PoseAt(0.0).root_in_world_m).norm(),
             0.03);
   EXPECT_LT(person.joints_in_cam_m.col(joint::kPelvis).norm(), 1e-12);
