@@ -20,10 +20,9 @@ namespace {
 
 constexpr int kMaxIterations = 30;
 constexpr double kFunctionTolerance = 1e-4;
+constexpr double kMuchBetter = 0.7;  // misfit of a pose found anew, to take it
+constexpr double kShortestPause_s = 0.3, kLongestPause_s = 5.0;  // between such tries
 constexpr double kPull_per_rad = 0.5;  // to rest, in a second: of dofs that nothing shows
-// Squared standard deviations of all corners of a tag, the mean over tags: so far off, other
-// poses are tried, now and then.
-constexpr double kMisfit = 20.0, kBetweenAnew_s = 0.3;
 constexpr double kLimitStiffness_per_rad = 10.0;  // as that of sequences
 constexpr double kOutlier = 7.0;                  // standard deviations of all corners together
 constexpr double kLeastFacing = 0.2;      // cosine: a tag that is seen more from the side is lost
@@ -78,6 +77,12 @@ int BoneOf(const Articulation& body, const BodyTag& tag) {
     throw InputError(fmt::format("tag {}: found the bone '{}', wanted one of the skeleton's",
                                  tag.id, tag.on_bone->bone));
   return *bone;
+}
+
+double WorstSigmas(const std::vector<TrackedTag>& tags) {
+  double worst = 0.0;
+  for (const TrackedTag& tag : tags) worst = std::max(worst, tag.sigmas);
+  return worst;
 }
 
 std::ptrdiff_t NumBelieved(const std::vector<TrackedTag>& tags) {
@@ -138,21 +143,27 @@ void TagTracker::Add(double time_s, const std::vector<TagSighting>& sightings) {
   std::optional<Solution> solution;
   if (!seen.empty() && prediction) {
     solution = SolveOn(seen, *prediction, dt_s);
-    if ((!solution || solution->misfit > kMisfit) && time_s - last_anew_s_ > kBetweenAnew_s) {
-      // Where tags speak against what was foretold, that may have been wrong.
-      last_anew_s_ = time_s;
-      auto anew = SolveAnew(seen);
-      if (anew && (!solution || 2.0 * anew->misfit < solution->misfit)) {
-        solution = std::move(anew);
-        filter_.StartAnew();
-      }
-    }
+    if (!solution || WorstSigmas(solution->tags) > kOutlier) TryAnew(time_s, seen, &solution);
   } else if (!seen.empty()) {
     solution = SolveAnew(seen);
   }
   waiting_.push_back(solution ? std::move(solution->tags) : std::vector<TrackedTag>());
   if (!solution) return;
   filter_.Measure(solution->pose, solution->variances);
+}
+
+// Where a tag speaks against what was foretold, that may have been wrong, or the tag is: less
+// and less often.
+void TagTracker::TryAnew(double time_s, const std::vector<Seen>& seen,
+                         std::optional<Solution>* solution) {
+  if (time_s < next_try_s_) return;
+  auto anew = SolveAnew(seen);
+  const bool is_better = anew && (!*solution || anew->misfit < kMuchBetter * (*solution)->misfit);
+  pause_s_ = is_better ? kShortestPause_s : std::min(kLongestPause_s, 2.0 * pause_s_);
+  next_try_s_ = time_s + pause_s_;
+  if (!is_better) return;
+  *solution = std::move(anew);
+  filter_.StartAnew();
 }
 
 std::optional<TrackedFrame> TagTracker::Take() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -99,6 +100,7 @@ class TagTracker {
                                 double share, double loss) const;
   std::optional<Solution> SolveOn(const std::vector<Seen>& seen,
                                   const MotionFilter::Prediction& prediction, double dt_s) const;
+  void TryAnew(double time_s, const std::vector<Seen>& seen, std::optional<Solution>* solution);
   std::optional<Solution> SolveAnew(const std::vector<Seen>& seen) const;
   void AddTags(const std::vector<Seen>& seen, const SkeletonPose& start, double loss,
                PoseProblem* problem) const;
@@ -115,7 +117,9 @@ class TagTracker {
   TagTrackerOptions options_;
   std::vector<Worn> worn_;
   MotionFilter filter_;
-  double last_s_ = 0.0, last_anew_s_ = -1.0;
+  double last_s_ = 0.0;
+  // When a pose found anew is next tried, and how long the pause was before.
+  double next_try_s_ = -std::numeric_limits<double>::infinity(), pause_s_ = 0.15;
   std::deque<std::vector<TrackedTag>> waiting_;
 };
 
