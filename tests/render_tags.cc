@@ -48,6 +48,7 @@ using testing::BodyRenderer;
 using testing::FrameTruth;
 
 struct Options {
+  double fps = 0.0;
   std::string motion, out, skeleton, camera, video, background, family = "tag36h11";
   double distance_m = 3.0, azimuth_deg = 0.0, size_mm = 80.0, rate_hz = 30.0, exposure_ms = 8.0,
          noise = 2.0, from_s = 0.0, seconds = 0.0;
@@ -58,6 +59,7 @@ struct Options {
 void Declare(CLI::App* app, Options* options) {
   app->add_option("motion", options->motion, "BVH or AMC of a CMU skeleton")->required();
   app->add_option("--skeleton", options->skeleton, "ASF of an AMC");
+  app->add_option("--fps", options->fps, "of an AMC, which does not say (default: 120)");
   app->add_option("--out", options->out, "folder to write to");
   app->add_flag("--detect", options->detect, "print what the detector finds");
   app->add_option("--video", options->video,
@@ -87,6 +89,7 @@ void Declare(CLI::App* app, Options* options) {
 
 Motion ReadWalk(const Options& options) {
   Motion motion = ReadMotion(options.motion, {.skeleton = options.skeleton});
+  if (options.fps > 0.0) motion.frame_time_s = 1.0 / options.fps;
   const auto first = static_cast<size_t>(options.from_s / motion.frame_time_s);
   if (options.from_s < 0.0 || first >= motion.frames.size())
     throw InputError(options.motion,
