@@ -168,7 +168,7 @@ int Track(Options options) {
   const Camera camera = CameraOf(options.inputs, source->size_px());
   TagSession session(tags, camera, lifter, models.codebook, options.session);
   std::optional<TrackVideo> video = StartVideo(options, *source);
-  Outputs outputs(options, session.skeleton(), 1.0 / options.inputs.rate_hz);
+  Outputs outputs(options, session.skeleton(), 1.0 / options.inputs.device.rate_hz);
   stop_asked = false;
   for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { stop_asked = true; });
 

@@ -6,7 +6,6 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -22,21 +21,6 @@
 #include "ui/cli/frame_rate.h"
 
 namespace poselift::cli {
-namespace {
-
-cv::Size ParseSize(const std::string& text) {
-  cv::Size size;
-  const char* const end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.width);
-  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-    const auto height = std::from_chars(width.ptr + 1, end, size.height);
-    if (height.ec == std::errc() && height.ptr == end && size.width > 0 && size.height > 0)
-      return size;
-  }
-  throw InputError(fmt::format("found --size {}, wanted WIDTHxHEIGHT, such as 1280x720", text));
-}
-
-}  // namespace
 
 void AddTrackingInputs(CLI::App* command, TrackingInputs* inputs) {
   command
@@ -50,13 +34,7 @@ void AddTrackingInputs(CLI::App* command, TrackingInputs* inputs) {
                    "How wide a camera sees that nobody calibrated, horizontally, in degrees")
       ->check(IsNumber(1.0, 170.0))
       ->capture_default_str();
-  command->add_option("--size", inputs->size, "Camera: size of the pictures to ask for")
-      ->capture_default_str();
-  command->add_option("--rate", inputs->rate_hz, "Camera: pictures a second to ask for")
-      ->check(IsFrameRate())
-      ->capture_default_str();
-  command->add_option("--control", inputs->controls,
-                      "Camera: NAME=VALUE, as often as wanted, such as exposure_time_absolute=50");
+  AddCameraOptions(command, &inputs->device);
   command->add_option("--fps", inputs->folder_rate_hz, "Folder: pictures a second")
       ->check(IsFrameRate())
       ->capture_default_str();
@@ -77,10 +55,8 @@ TrackingModels ReadModels(const TrackingInputs& inputs) {
 
 std::unique_ptr<FrameSource> OpenSource(const TrackingInputs& inputs) {
   FrameSourceOptions options{.pictures = Pictures::kGrey, .folder_rate_hz = inputs.folder_rate_hz};
-  options.live.camera.wanted = {0, ParseSize(inputs.size), inputs.rate_hz};
+  options.live.camera = inputs.device.Options();
   options.live.keep_encoded = inputs.keep_encoded;
-  for (const std::string& control : inputs.controls)
-    options.live.camera.controls.push_back(ParseControl(control));
   auto source = OpenFrameSource(inputs.input, options);
   if (inputs.realtime && KindOfSource(inputs.input) != SourceKind::kCamera)
     source = std::make_unique<PacedFrameSource>(std::move(source));

@@ -5,12 +5,12 @@
 #include <memory>
 #include <opencv2/core/types.hpp>
 #include <string>
-#include <vector>
 
 #include "lift/dictionary.h"
 #include "lift/temporal/motion_codebook.h"
 #include "src/camera.h"
 #include "src/io/frame_source.h"
+#include "ui/cli/camera_options.h"
 
 namespace CLI {
 class App;
@@ -23,9 +23,7 @@ struct TrackingInputs {
   std::string input;
   std::string camera;
   double fov_deg = 60.0;  // horizontal, of a camera that nobody calibrated
-  std::string size = "1280x720";
-  double rate_hz = 30.0;
-  std::vector<std::string> controls;
+  CameraChoice device;
   double folder_rate_hz = 30.0;
   bool realtime = false;
   bool keep_encoded = false;
