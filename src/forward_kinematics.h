@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "src/pose3.h"
@@ -16,6 +17,14 @@ struct BoneFrames {
   Eigen::Matrix3Xd start_in_world_m;  // 3 x B
   Eigen::Matrix3Xd tip_in_world_m;    // 3 x B
 };
+
+// The frame of a bone: its rotation, its start.
+inline Eigen::Isometry3d WorldFromBone(const BoneFrames& frames, int bone) {
+  Eigen::Isometry3d world_from_bone = Eigen::Isometry3d::Identity();
+  world_from_bone.linear() = frames.world_from_bone[static_cast<size_t>(bone)];
+  world_from_bone.translation() = frames.start_in_world_m.col(bone);
+  return world_from_bone;
+}
 
 // Reuses the storage of *frames: no allocation after the first call.
 void ForwardKinematics(const Skeleton& skeleton, const SkeletonPose& pose, BoneFrames* frames);

@@ -81,11 +81,6 @@ struct RatiosCost {
   }
 };
 
-GroupMatrix InverseRoot(const GroupMatrix& covariance) {
-  const GroupMatrix lower = covariance.llt().matrixL();
-  return lower.triangularView<Eigen::Lower>().solve(GroupMatrix::Identity());
-}
-
 }  // namespace
 
 Eigen::Isometry3d TagMount::BoneFromTag() const {
@@ -118,13 +113,6 @@ TagBundle::TagBundle(const Skeleton& standard, const PosePrior& prior, const Cam
       view_{camera.fx_px, Eigen::Isometry3d(cam_from_world)},
       options_(options) {}
 
-TagCorners TagBundle::WithoutDistortion(const TagDetection& tag) const {
-  TagCorners corners_px;
-  for (int i = 0; i < 4; ++i)
-    corners_px.col(i) = view_.focal_px * camera_.Undistort(tag.corners_px.col(i)).head<2>();
-  return corners_px;
-}
-
 void TagBundle::AddFrame(PosedFrame* frame, ceres::Problem* problem) {
   SkeletonPose& pose = frame->pose;
   double* const root = pose.root_in_world_m.data();
@@ -136,7 +124,7 @@ void TagBundle::AddFrame(PosedFrame* frame, ceres::Problem* problem) {
     if (mount == mounts.end() || !mount->second.is_known) continue;
     TagInPicture picture{.bone = mount->second.bone,
                          .size_m = mount->second.said->size_m,
-                         .corners_px = WithoutDistortion(tag.detection)};
+                         .corners_px = CornersWithoutLens(camera_, tag.detection.corners_px)};
     if (!picture.corners_px.allFinite()) continue;
     picture.whitening /= options_.corner_sigma_px;
     problem->AddResidualBlock(
@@ -239,13 +227,11 @@ double TagBundle::Rms_px(const std::vector<PosedFrame>& frames, int id) const {
     ForwardKinematics(skeleton, frame.pose, &bones);
     for (const TagSighting& tag : frame.sighted->tags) {
       if (tag.detection.id != id) continue;
-      Eigen::Isometry3d world_from_bone = Eigen::Isometry3d::Identity();
-      world_from_bone.linear() = bones.world_from_bone[static_cast<size_t>(mount.bone)];
-      world_from_bone.translation() = bones.start_in_world_m.col(mount.bone);
       const TagCorners off_px =
-          ProjectTag(view_, view_.cam_from_world * world_from_bone * mount.BoneFromTag(),
+          ProjectTag(view_,
+                     view_.cam_from_world * WorldFromBone(bones, mount.bone) * mount.BoneFromTag(),
                      mount.said->size_m) -
-          WithoutDistortion(tag.detection);
+          CornersWithoutLens(camera_, tag.detection.corners_px);
       if (!off_px.allFinite()) continue;
       sum += off_px.squaredNorm() / 4.0;
       ++count;

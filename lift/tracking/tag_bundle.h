@@ -85,7 +85,6 @@ class TagBundle {
   double Rms_px(const std::vector<PosedFrame>& frames, int id) const;
 
  private:
-  TagCorners WithoutDistortion(const TagDetection& tag) const;
   void AddFrame(PosedFrame* frame, ceres::Problem* problem);
   void AddMount(TagMount* mount, ceres::Problem* problem);
   void FindCovariances(ceres::Problem* problem);

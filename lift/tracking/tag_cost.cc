@@ -4,8 +4,6 @@
 
 #include <ceres/cost_function.h>
 
-#include <Eigen/Cholesky>
-
 #include "lift/body_proportions.h"
 #include "lift/ik/rotation_derivative.h"
 #include "src/forward_kinematics.h"
@@ -164,6 +162,13 @@ class PointCost final : public BoneCost {
 
 }  // namespace
 
+TagCorners CornersWithoutLens(const Camera& camera, const TagCorners& corners_px) {
+  TagCorners without_px;
+  for (int i = 0; i < 4; ++i)
+    without_px.col(i) = camera.fx_px * camera.Undistort(corners_px.col(i)).head<2>();
+  return without_px;
+}
+
 TagCorners ProjectTag(const TagView& view, const Eigen::Isometry3d& cam_from_tag, double size_m) {
   const Eigen::Matrix<double, 3, 4> in_cam_m = cam_from_tag * TagCorners_m(size_m);
   if (!(in_cam_m.row(2).minCoeff() > kNearest_m)) return TagCorners::Constant(std::nan(""));
@@ -183,8 +188,7 @@ Eigen::Matrix<double, 8, 8> TagWhitening(const TagView& view, const Eigen::Isome
   }
   Eigen::Matrix<double, 8, 8> covariance = by_mount * by_mount.transpose();
   covariance.diagonal().array() += sigma_px * sigma_px;
-  const Eigen::Matrix<double, 8, 8> lower = covariance.llt().matrixL();
-  return lower.triangularView<Eigen::Lower>().solve(Eigen::Matrix<double, 8, 8>::Identity());
+  return InverseRoot<8>(covariance);
 }
 
 std::unique_ptr<ceres::CostFunction> MakeTagCost(const Articulation& body, const TagView& view,

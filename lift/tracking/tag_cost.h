@@ -2,11 +2,13 @@
 // Copyright (c) 2026 the poselift authors
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <memory>
 
 #include "lift/ik/articulation.h"
+#include "src/camera.h"
 #include "src/tag_detection.h"
 
 namespace ceres {
@@ -37,6 +39,19 @@ struct TagView {
   double focal_px = 0.0;
   Eigen::Isometry3d cam_from_world = Eigen::Isometry3d::Identity();
 };
+
+// Corners as that view has them: freed of the lens, from the principal point, at focal length
+// fx_px. NaN where the lens shows nothing.
+TagCorners CornersWithoutLens(const Camera& camera, const TagCorners& corners_px);
+
+// W with W^T W the inverse of a covariance.
+template <int kSize>
+Eigen::Matrix<double, kSize, kSize> InverseRoot(
+    const Eigen::Matrix<double, kSize, kSize>& covariance) {
+  using Square = Eigen::Matrix<double, kSize, kSize>;
+  const Square lower = covariance.llt().matrixL();
+  return lower.template triangularView<Eigen::Lower>().solve(Square::Identity());
+}
 
 // Where the corners are seen, NaN when one is not before the camera.
 TagCorners ProjectTag(const TagView& view, const Eigen::Isometry3d& cam_from_tag, double size_m);

@@ -69,10 +69,7 @@ void GuessMount(const std::vector<PosedFrame>& frames, const Skeleton& skeleton,
     for (const TagSighting& tag : frame.sighted->tags) {
       if (tag.detection.id != mount->said->id || tag.poses.empty() || tag.is_ambiguous) continue;
       ForwardKinematics(skeleton, frame.pose, &bones);
-      Eigen::Isometry3d world_from_bone = Eigen::Isometry3d::Identity();
-      world_from_bone.linear() = bones.world_from_bone[static_cast<size_t>(mount->bone)];
-      world_from_bone.translation() = bones.start_in_world_m.col(mount->bone);
-      candidates.push_back((cam_from_world * world_from_bone).inverse() *
+      candidates.push_back((cam_from_world * WorldFromBone(bones, mount->bone)).inverse() *
                            tag.poses.front().cam_from_tag);
     }
   double least = std::numeric_limits<double>::infinity();

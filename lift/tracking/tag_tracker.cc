@@ -28,11 +28,6 @@ constexpr double kOutlier = 7.0;                  // standard deviations of all 
 constexpr double kLeastFacing = 0.2;      // cosine: a tag that is seen more from the side is lost
 constexpr double kLeanUnknown_rad = 0.7;  // of a tag that may lean either way
 
-Eigen::Matrix3d InverseRoot(const Eigen::Matrix3d& covariance) {
-  const Eigen::Matrix3d lower = covariance.llt().matrixL();
-  return lower.triangularView<Eigen::Lower>().solve(Eigen::Matrix3d::Identity());
-}
-
 // The diagonal of a covariance by root, its small turn and the dofs, as PoseDifference.
 FeatureVector FeatureVariances(const Eigen::MatrixXd& covariance, const SkeletonPose& pose) {
   const Eigen::Matrix3d heading_from_world =
@@ -204,10 +199,7 @@ std::vector<TagTracker::Seen> TagTracker::Known(const std::vector<TagSighting>& 
       return candidate.tag.id == sighting.detection.id;
     });
     if (worn == worn_.end()) continue;
-    Seen seen{&*worn, &sighting, {}};
-    for (int i = 0; i < 4; ++i)
-      seen.corners_px.col(i) =
-          view_.focal_px * camera_.Undistort(sighting.detection.corners_px.col(i)).head<2>();
+    const Seen seen{&*worn, &sighting, CornersWithoutLens(camera_, sighting.detection.corners_px)};
     if (seen.corners_px.allFinite()) known.push_back(seen);
   }
   return known;
@@ -286,10 +278,7 @@ std::optional<TagTracker::Solution> TagTracker::SolveAnew(const std::vector<Seen
 }
 
 Eigen::Isometry3d TagTracker::CamFromBone(const BoneFrames& frames, int bone) const {
-  Eigen::Isometry3d world_from_bone = Eigen::Isometry3d::Identity();
-  world_from_bone.linear() = frames.world_from_bone[static_cast<size_t>(bone)];
-  world_from_bone.translation() = frames.start_in_world_m.col(bone);
-  return view_.cam_from_world * world_from_bone;
+  return view_.cam_from_world * WorldFromBone(frames, bone);
 }
 
 TagInPicture TagTracker::InPicture(const Seen& tag, const BoneFrames& frames) const {

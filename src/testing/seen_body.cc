@@ -9,13 +9,6 @@ namespace {
 
 const Eigen::Vector3f kPaper(0.88f, 0.88f, 0.88f);
 
-Eigen::Isometry3d WorldFromBone(const BoneFrames& frames, int bone) {
-  Eigen::Isometry3d world_from_bone = Eigen::Isometry3d::Identity();
-  world_from_bone.linear() = frames.world_from_bone[bone];
-  world_from_bone.translation() = frames.start_in_world_m.col(bone);
-  return world_from_bone;
-}
-
 // Where a box in cam may be seen: the box around its corners, wider by what the lens
 // bends the lines between them. Everywhere when a corner is not seen at all.
 cv::Rect BoxOnPicture(const Eigen::AlignedBox3d& box, const Camera& camera) {

@@ -13,11 +13,7 @@ ObservedBonePose PlantTag(const Skeleton& skeleton, const SkeletonPose& pose,
                       Eigen::AngleAxisd(1.2, Eigen::Vector3d(1.0, -2.0, 0.5).normalized());
   BoneFrames frames;
   ForwardKinematics(skeleton, pose, &frames);
-  const int index = *skeleton.FindBone(bone);
-  Eigen::Isometry3d cam_from_bone = Eigen::Isometry3d::Identity();
-  cam_from_bone.linear() = frames.world_from_bone[index];
-  cam_from_bone.translation() = frames.start_in_world_m.col(index);
-  tag.cam_from_tag = cam_from_bone * tag.bone_from_tag;
+  tag.cam_from_tag = WorldFromBone(frames, *skeleton.FindBone(bone)) * tag.bone_from_tag;
   return tag;
 }
 

@@ -59,11 +59,8 @@ std::vector<TagSighting> TaggedPerson::Sight(const SkeletonPose& pose, double no
   std::vector<TagSighting> seen;
   for (const BodyTag& tag : worn.tags) {
     const int bone = *skeleton.FindBone(tag.on_bone->bone);
-    Eigen::Isometry3d world_from_bone = Eigen::Isometry3d::Identity();
-    world_from_bone.linear() = frames.world_from_bone[static_cast<size_t>(bone)];
-    world_from_bone.translation() = frames.start_in_world_m.col(bone);
     const Eigen::Isometry3d cam_from_tag =
-        Eigen::Isometry3d(kLevelFromCam) * world_from_bone * tag.on_bone->bone_from_tag;
+        Eigen::Isometry3d(kLevelFromCam) * WorldFromBone(frames, bone) * tag.on_bone->bone_from_tag;
     const Eigen::Vector3d into_tag = cam_from_tag.linear().col(2);
     if (into_tag.dot(cam_from_tag.translation().normalized()) < kLeastFacing) continue;
     TagDetection detection{.id = tag.id};

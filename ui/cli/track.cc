@@ -48,7 +48,6 @@ struct Options {
   int udp_port = 0;
   bool record = false;
   std::optional<double> before_s;  // the video begins so long before somebody is seen
-  bool window = false;
 };
 
 // Set by a signal: the recording is closed as it should be.
@@ -238,7 +237,8 @@ CLI::App* AddTrack(CLI::App* app, Run* run) {
       ->add_option("--record-before-s", options->before_s,
                    "The video begins so long before a person is first seen (default: at once)")
       ->check(IsNumber(0.0, 60.0));
-  command->add_flag("--window,!--no-window", options->window, "There is no window yet");
+  command->add_flag_callback(
+      "--no-window", [] {}, "Open no window: what it does anyway");
   command->add_option("--json", options->json, "Write the report to this file");
   command->callback([options] {
     if (options->out.empty() && !options->stream && options->udp_port == 0)

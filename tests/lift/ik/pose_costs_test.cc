@@ -72,10 +72,7 @@ Eigen::Isometry3d WorldFromTag(const Articulation& body, const SkeletonPose& pos
   BoneFrames frames;
   ForwardKinematics(body.skeleton, pose, &frames);
   const int bone = *body.skeleton.FindBone(tag.bone);
-  Eigen::Isometry3d world_from_bone = Eigen::Isometry3d::Identity();
-  world_from_bone.linear() = frames.world_from_bone[bone];
-  world_from_bone.translation() = frames.start_in_world_m.col(bone);
-  return world_from_bone * tag.bone_from_tag;
+  return WorldFromBone(frames, bone) * tag.bone_from_tag;
 }
 
 void ExpectJacobiansAgree(const ceres::CostFunction& cost, Blocks blocks) {

@@ -46,10 +46,7 @@ class TagCostTest : public ::testing::Test {
   Eigen::Isometry3d CamFromTag() const {
     BoneFrames frames;
     ForwardKinematics(body_.skeleton, pose_, &frames);
-    Eigen::Isometry3d world_from_bone = Eigen::Isometry3d::Identity();
-    world_from_bone.linear() = frames.world_from_bone[static_cast<size_t>(tag_.bone)];
-    world_from_bone.translation() = frames.start_in_world_m.col(tag_.bone);
-    return view_.cam_from_world * world_from_bone * tag_.bone_from_tag;
+    return view_.cam_from_world * WorldFromBone(frames, tag_.bone) * tag_.bone_from_tag;
   }
 
   std::vector<double*> Blocks() {
