@@ -19,6 +19,10 @@ constexpr int kSteps = 12;   // across it
 constexpr double kFarthest_px = 3.0;
 constexpr double kMinContrast = 5.0;  // grey levels
 constexpr double kConverged_px = 0.002;
+constexpr double kClear =
+    0.35;  // of the contrast: a level further from its border's is another thing
+constexpr int kLeastClear = 16;         // places of an edge
+constexpr double kStraggler_px = 0.15;  // from the line, and more than thrice as far as is usual
 
 // Where one place of an edge is sampled: from inside the tag to outside.
 struct Crossing {
@@ -77,28 +81,80 @@ struct Line {
   Eigen::Vector2d point, normal;
 };
 
-// The levels beside the edge are smoothed along it: light changes slowly, noise does not.
-bool FitEdge(const Edge& edge, Line* line) {
-  Eigen::Matrix<double, 2, kPlaces> points;
+// The levels beside an edge are smoothed along it: light changes slowly, noise does not.
+void SmoothAlong(Edge* edge) {
+  const Edge raw = *edge;
   for (int i = 0; i < kPlaces; ++i) {
-    double inner = 0.0, outer = 0.0;
+    Crossing& crossing = (*edge)[static_cast<size_t>(i)];
     const int first = std::max(0, i - 4), last = std::min(kPlaces - 1, i + 4);
+    crossing.inner = crossing.outer = 0.0;
     for (int k = first; k <= last; ++k) {
-      inner += edge[static_cast<size_t>(k)].inner / (last - first + 1);
-      outer += edge[static_cast<size_t>(k)].outer / (last - first + 1);
+      crossing.inner += raw[static_cast<size_t>(k)].inner / (last - first + 1);
+      crossing.outer += raw[static_cast<size_t>(k)].outer / (last - first + 1);
     }
-    const Crossing& crossing = edge[static_cast<size_t>(i)];
-    const double contrast = outer - inner;
-    if (!(std::abs(contrast) > kMinContrast)) return false;  // NaN too
-    const double t = crossing.reach_px * (inner + outer - 2.0 * crossing.mean) / contrast;
-    points.col(i) = crossing.middle_px +
-                    std::clamp(t, -crossing.reach_px, crossing.reach_px) * crossing.outward;
   }
-  line->point = points.rowwise().mean();
-  points.colwise() -= line->point;
-  const Eigen::Matrix2d scatter = points * points.transpose();
+}
+
+// Grey levels of the borders beside two edges that face each other, blurred alike. Quartiles,
+// those that are further apart: one of the edges may be hidden.
+struct Levels {
+  double inner = 0.0, outer = 0.0;
+  double Contrast() const { return outer - inner; }
+};
+Levels LevelsBeside(const Edge& a, const Edge& b) {
+  std::array<double, 2 * kPlaces> inner{}, outer{};
+  for (size_t i = 0; i < kPlaces; ++i) {
+    inner[i] = a[i].inner, inner[kPlaces + i] = b[i].inner;
+    outer[i] = a[i].outer, outer[kPlaces + i] = b[i].outer;
+  }
+  const auto at = [](std::array<double, 2 * kPlaces>* levels, int rank) {
+    std::nth_element(levels->begin(), levels->begin() + rank, levels->end());
+    return (*levels)[static_cast<size_t>(rank)];
+  };
+  constexpr int kLow = kPlaces / 2, kHigh = 3 * kPlaces / 2;
+  const Levels outward{at(&inner, kLow), at(&outer, kHigh)};
+  const Levels inward{at(&inner, kHigh),
+                      at(&outer, kLow)};  // of families with a white border inside
+  return std::abs(outward.Contrast()) > std::abs(inward.Contrast()) ? outward : inward;
+}
+
+using Points = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, kPlaces>;
+
+Line LineThrough(const Points& points) {
+  Line line{points.rowwise().mean(), {}};
+  const Points off = points.colwise() - line.point;
+  const Eigen::Matrix2d scatter = off * off.transpose();
   const double angle = 0.5 * std::atan2(2.0 * scatter(0, 1), scatter(0, 0) - scatter(1, 1));
-  line->normal = {-std::sin(angle), std::cos(angle)};
+  line.normal = {-std::sin(angle), std::cos(angle)};
+  return line;
+}
+
+// Through the places with the tag's black on one side and its white on the other, without
+// those that are off the line: what lies over an edge has another.
+bool FitEdge(const Edge& edge, const Levels& levels, Line* line) {
+  Points points(2, kPlaces);
+  int count = 0;
+  for (const Crossing& crossing : edge) {
+    if ((crossing.inner - levels.inner) / levels.Contrast() > kClear) continue;
+    if ((levels.outer - crossing.outer) / levels.Contrast() > kClear) continue;
+    const double t = crossing.reach_px * (crossing.inner + crossing.outer - 2.0 * crossing.mean) /
+                     (crossing.outer - crossing.inner);
+    points.col(count++) = crossing.middle_px +
+                          std::clamp(t, -crossing.reach_px, crossing.reach_px) * crossing.outward;
+  }
+  if (count < kLeastClear) return false;
+  *line = LineThrough(points.leftCols(count));
+  using Row = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kPlaces>;
+  const Row off_px =
+      (line->normal.transpose() * (points.leftCols(count).colwise() - line->point)).cwiseAbs();
+  Row sorted_px = off_px;
+  std::nth_element(sorted_px.begin(), sorted_px.begin() + count / 2, sorted_px.end());
+  const double most_px = std::max(kStraggler_px, 3.0 * sorted_px[count / 2]);
+  int kept = 0;
+  for (int i = 0; i < count; ++i)
+    if (off_px[i] <= most_px) points.col(kept++) = points.col(i);
+  if (kept < kLeastClear) return false;
+  if (kept < count) *line = LineThrough(points.leftCols(kept));
   return true;
 }
 
@@ -111,15 +167,22 @@ Eigen::Vector2d Meet(const Line& a, const Line& b) {
 bool Improve(const cv::Mat& grey, int cells, Corners* corners_px) {
   const Eigen::Matrix3d px_from_tag = PxFromTag(*corners_px);
   const double half_cell = 1.0 / cells;
-  std::array<Line, 4> lines;
+  std::array<Edge, 4> edges;
   for (int e = 0; e < 4; ++e) {
-    Edge edge;
+    Edge& edge = edges[static_cast<size_t>(e)];
     for (int i = 0; i < kPlaces; ++i) {
       const double along = (1.0 - half_cell) * (2.0 * i / (kPlaces - 1) - 1.0);
       edge[static_cast<size_t>(i)] = CrossingAt(px_from_tag, e, along, half_cell);
       Sample(grey, &edge[static_cast<size_t>(i)]);
+      if (!std::isfinite(edge[static_cast<size_t>(i)].mean)) return false;
     }
-    if (!FitEdge(edge, &lines[static_cast<size_t>(e)])) return false;
+    SmoothAlong(&edge);
+  }
+  std::array<Line, 4> lines;
+  for (size_t e = 0; e < 4; ++e) {
+    const Levels levels = LevelsBeside(edges[e % 2], edges[e % 2 + 2]);
+    if (!(std::abs(levels.Contrast()) > kMinContrast)) return false;
+    if (!FitEdge(edges[e], levels, &lines[e])) return false;
   }
   for (int i = 0; i < 4; ++i)
     corners_px->col(i) =

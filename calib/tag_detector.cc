@@ -159,7 +159,7 @@ std::vector<TagDetection> TagDetector::Detect(const cv::Mat& grey) {
   impl_->KeepBest(&tags);
   for (TagDetection& tag : tags) {
     if (impl_->options.refine_corners)
-      RefineTagCorners(grey, impl_->family.cells_of_size(), &tag.corners_px);
+      tag.is_refined = RefineTagCorners(grey, impl_->family.cells_of_size(), &tag.corners_px);
     tag.centre_px = PxFromTag(tag.corners_px).col(2).head<2>();
   }
   return tags;

@@ -23,6 +23,8 @@ struct TagDetection {
   // bottom left, as it is printed: (-1, -1), (1, -1), (1, 1), (-1, 1) half sizes in tag.
   Eigen::Matrix<double, 2, 4> corners_px = Eigen::Matrix<double, 2, 4>::Zero();
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  // where its diagonals meet
+  // Corners lie where its edges meet. False: an edge is hidden, they may be pixels off.
+  bool is_refined = true;
 };
 
 // A pose that explains the corners, by a calibrated camera. A flat square has two: it may

@@ -286,8 +286,9 @@ TagInPicture TagTracker::InPicture(const Seen& tag, const BoneFrames& frames) co
   const Eigen::Isometry3d cam_from_tag = CamFromBone(frames, tag.worn->bone) * mount.bone_from_tag;
   const double size_m = tag.worn->tag.size_m;
   return {tag.worn->bone, mount.bone_from_tag, size_m, tag.corners_px,
-          TagWhitening(view_, cam_from_tag, size_m, options_.corner_sigma_px, mount.sigma_m,
-                       mount.sigma_rad)};
+          TagWhitening(view_, cam_from_tag, size_m,
+                       CornerSigma_px(tag.sighting->detection, options_.corner_sigma_px),
+                       mount.sigma_m, mount.sigma_rad)};
 }
 
 // The joint as the tag has it; of the two ways it may lean, the one that is nearer.

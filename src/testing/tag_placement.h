@@ -15,7 +15,7 @@ struct TagPlacementOptions {
   double paper_per_size = 10.0 / 8.0;
   double gap_m = 0.004;  // between paper and body
   // Off: what a camera before a person who stands or walks sees, 13 tags. On: around
-  // the trunk, the head and the limbs as well, 40 tags; the first 13 are the same.
+  // the trunk, the head and the limbs as well, 36 tags; the first 13 are the same.
   bool around = false;
   int first_id = 0;
 

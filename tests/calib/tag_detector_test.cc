@@ -12,6 +12,7 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <thread>
 
 #include "calib/tag_corners.h"
@@ -306,6 +307,39 @@ TEST(TagCornersTest, TheHomographyTakesTheSquareToItsCorners) {
   const PlacedTag tag{0, PxFromTag(corners_px)};
   EXPECT_TRUE(testing::MatrixNear(tag.Corners(), corners_px, 1e-10));
   EXPECT_EQ(tag.px_from_tag(2, 2), 1.0);
+}
+
+// What lies over a part of the left edge: a dark thing, a bright one, one like the paper.
+TEST(TagCornersTest, WhatHidesAPartOfAnEdgeDoesNotMoveIt) {
+  const TagFamily family("tag36h11");
+  const PlacedTag tag{7, testing::PxFromTag({100.3, 90.7}, 48.0, 0.1)};
+  for (const double grey_level : {10.0, 90.0, 220.0}) {
+    cv::Mat grey = Grey(200);
+    testing::DrawTags(family, {tag}, &grey);
+    const Eigen::Vector2d left_px = 0.5 * (tag.Corners().col(0) + tag.Corners().col(3));
+    cv::circle(grey, cv::Point2d(left_px.x() - 3.0, left_px.y()), 9, cv::Scalar(grey_level), -1);
+    Eigen::Matrix<double, 2, 4> corners_px = tag.Corners();
+    corners_px.row(0).array() += 0.7;
+    ASSERT_TRUE(RefineTagCorners(grey, family.cells_of_size(), &corners_px)) << grey_level;
+    EXPECT_TRUE(testing::MatrixNear(corners_px, tag.Corners(), 0.1)) << grey_level;
+  }
+}
+
+TEST(TagCornersTest, AHiddenEdgeIsSaid) {
+  const TagFamily family("tag36h11");
+  const PlacedTag tag{7, testing::PxFromTag({100.3, 90.7}, 48.0, 0.0)};
+  cv::Mat grey = Grey(200);
+  testing::DrawTags(family, {tag}, &grey);
+  TagDetector detector(family);
+  ASSERT_EQ(detector.Detect(grey).size(), 1U);
+  EXPECT_TRUE(detector.Detect(grey)[0].is_refined);
+  // Dark cloth over the white border on the left.
+  const Eigen::Vector2d corner_px = tag.Corners().col(0);
+  cv::rectangle(grey, cv::Point2d(corner_px.x() - 8.0, corner_px.y() - 8.0),
+                cv::Point2d(corner_px.x() - 1.0, corner_px.y() + 60.0), cv::Scalar(60.0), -1);
+  const auto found = detector.Detect(grey);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_FALSE(found[0].is_refined);
 }
 
 TEST(TagCornersTest, CornersThatHaveNoEdgesStayWhereTheyAre) {

@@ -19,7 +19,7 @@ namespace poselift::cli {
 struct TrackExperimentOptions {
   double distance_m = 3.0;
   double tag_size_m = 0.08;
-  bool around = false;  // 40 tags on all sides, not 13 in front
+  bool around = false;  // 36 tags on all sides, not 13 in front
   double exposure_s = 1.0 / 120.0;
   double noise_grey_levels = 3.0;
   // How far off tags sit from where the tags file says, before it is fitted: standard
