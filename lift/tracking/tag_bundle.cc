@@ -22,6 +22,8 @@ namespace {
 
 constexpr double kPull_per_rad = 0.02;
 constexpr int kMaxIterations = 50;
+// How focal lengths (their logarithm) and k1 of cameras differ.
+constexpr double kFocalSigma = 0.3, kRadialSigma = 0.1;
 // A mount that was only said to be by a joint may turn freely.
 constexpr double kFree_m = 0.2, kFree_rad = 10.0;
 
@@ -81,6 +83,15 @@ struct RatiosCost {
   }
 };
 
+struct LensCost {
+  template <typename T>
+  bool operator()(const T* lens, T* residuals) const {
+    residuals[0] = lens[0] / kFocalSigma;
+    residuals[1] = lens[1] / kRadialSigma;
+    return true;
+  }
+};
+
 }  // namespace
 
 Eigen::Isometry3d TagMount::BoneFromTag() const {
@@ -126,10 +137,11 @@ void TagBundle::AddFrame(PosedFrame* frame, ceres::Problem* problem) {
                          .size_m = mount->second.said->size_m,
                          .corners_px = CornersWithoutLens(camera_, tag.detection.corners_px)};
     if (!picture.corners_px.allFinite()) continue;
-    picture.whitening /= options_.corner_sigma_px;
-    problem->AddResidualBlock(
-        MakeTagFitCost(standard_, view_, picture).release(), new ceres::CauchyLoss(options_.loss),
-        root, turn, dofs, mount->second.t.data(), mount->second.R.coeffs().data(), ratios.data());
+    picture.whitening /= CornerSigma_px(tag.detection, options_.corner_sigma_px);
+    problem->AddResidualBlock(MakeTagFitCost(standard_, view_, picture).release(),
+                              new ceres::CauchyLoss(options_.loss), root, turn, dofs,
+                              mount->second.t.data(), mount->second.R.coeffs().data(),
+                              ratios.data(), lens.data());
     ++mount->second.num_frames;
   }
   if (weighted_.mean_m.size() > 0)
@@ -172,6 +184,9 @@ bool TagBundle::Solve(std::vector<PosedFrame>* frames) {
       new ceres::AutoDiffCostFunction<RatiosCost, kNumBoneGroups, kNumBoneGroups>(
           new RatiosCost{InverseRoot(ProportionPrior().covariance)}),
       nullptr, ratios.data());
+  problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LensCost, 2, 2>(new LensCost), nullptr,
+                           lens.data());
+  if (!options_.finds_lens) problem.SetParameterBlockConstant(lens.data());
   for (auto& [id, mount] : mounts) {
     mount.num_frames = 0;
     if (mount.is_known) AddMount(&mount, &problem);
@@ -190,9 +205,19 @@ bool TagBundle::Solve(std::vector<PosedFrame>* frames) {
   return true;
 }
 
-// Of the lengths and the mounts. In the tangent of EigenQuaternionManifold d is half a turn.
+Camera TagBundle::FoundCamera() const {
+  Camera camera = camera_;
+  camera.fx_px *= std::exp(lens[0]);
+  camera.fy_px *= std::exp(lens[0]);
+  camera.distortion.k1 += lens[1];
+  return camera;
+}
+
+// Of the lengths, the lens and the mounts. In the tangent of EigenQuaternionManifold d is half a
+// turn.
 void TagBundle::FindCovariances(ceres::Problem* problem) {
   std::vector<std::pair<const double*, const double*>> blocks = {{ratios.data(), ratios.data()}};
+  if (options_.finds_lens) blocks.emplace_back(lens.data(), lens.data());
   for (auto& [id, mount] : mounts) {
     if (!mount.is_known) continue;
     const double* const R = mount.R.coeffs().data();
@@ -204,6 +229,8 @@ void TagBundle::FindCovariances(ceres::Problem* problem) {
   ceres::Covariance covariance(options);
   const bool found = covariance.Compute(blocks, problem);
   if (found) covariance.GetCovarianceBlock(ratios.data(), ratios.data(), ratios_covariance.data());
+  if (found && options_.finds_lens)
+    covariance.GetCovarianceBlock(lens.data(), lens.data(), lens_covariance.data());
   for (auto& [id, mount] : mounts) {
     if (!mount.is_known) continue;
     Eigen::Matrix3d place = Eigen::Matrix3d::Zero(), turn = Eigen::Matrix3d::Zero();
@@ -228,7 +255,7 @@ double TagBundle::Rms_px(const std::vector<PosedFrame>& frames, int id) const {
     for (const TagSighting& tag : frame.sighted->tags) {
       if (tag.detection.id != id) continue;
       const TagCorners off_px =
-          ProjectTag(view_,
+          ProjectTag(WithLens(view_, lens),
                      view_.cam_from_world * WorldFromBone(bones, mount.bone) * mount.BoneFromTag(),
                      mount.said->size_m) -
           CornersWithoutLens(camera_, tag.detection.corners_px);

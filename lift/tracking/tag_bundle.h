@@ -27,6 +27,8 @@ struct TagFitOptions {
   double corner_sigma_px = 0.15;
   double loss = 6.0;          // Cauchy, as in TagTrackerOptions
   double prior_weight = 0.1;  // of the pose prior
+  // Of a camera that nobody calibrated the focal length and k1 are found as well.
+  bool finds_lens = false;
   // What a mount is never known better than: skin moves on bones.
   double least_sigma_m = 0.003;
   double least_sigma_rad = 0.02;
@@ -60,12 +62,13 @@ struct TagMount {
 
 // Where tags sit on a body, and how long its bones are, from frames that show them
 // (bundle adjustment). Of frames t and tags k, over poses q_t, mounts bone_from_tag_k and
-// log ratios rho of the bones' lengths (body_proportions.h):
+// log ratios rho of the bones' lengths (body_proportions.h), and a lens l if it is asked for:
 //
-//   min sum_tk  rho(|corners_k(q_t, mount_k, rho) - corners_tk|^2 / sigma_px^2)
+//   min sum_tk  rho(|corners_k(q_t, mount_k, rho, l) - corners_tk|^2 / sigma_px^2)
 //     + sum_t   |prior_weight whitening (f_0(q_t) - mean)|^2     the pose prior
 //     + sum_k   how far each mount is from where it was said to be
 //     + |rho - mean|^2_covariance                                how people differ
+//     + |l|^2_covariance                                         how cameras differ
 //
 // A joint that bends between two tags is found where both say it is; what no movement
 // shows (the direction of a forearm whose hand has no tag) stays as it was said to be.
@@ -77,10 +80,13 @@ class TagBundle {
 
   GroupVector ratios = GroupVector::Zero();
   GroupMatrix ratios_covariance = GroupMatrix::Zero();
+  LensVector lens = LensVector::Zero();
+  Eigen::Matrix2d lens_covariance = Eigen::Matrix2d::Zero();
   std::map<int, TagMount> mounts;  // by the tags' ids; those that are not known are left out
 
   // False when the solver breaks down.
   bool Solve(std::vector<PosedFrame>* frames);
+  Camera FoundCamera() const;
   // Of a tag's corners, over the frames that show it.
   double Rms_px(const std::vector<PosedFrame>& frames, int id) const;
 

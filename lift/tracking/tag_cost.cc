@@ -4,6 +4,9 @@
 
 #include <ceres/cost_function.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "lift/body_proportions.h"
 #include "lift/ik/rotation_derivative.h"
 #include "src/forward_kinematics.h"
@@ -16,12 +19,21 @@ template <int kRows>
 using RowMajorMap = Eigen::Map<Eigen::Matrix<double, kRows, Eigen::Dynamic, Eigen::RowMajor>>;
 
 constexpr double kNearest_m = 0.01;  // before the camera
+constexpr double kHiddenEdgeSigma_px = 1.5;
 
-// d (focal x / z, focal y / z) / d x.
-Matrix23 ProjectionByPoint(double focal_px, const Eigen::Vector3d& x) {
-  Matrix23 jacobian;
-  jacobian << 1.0, 0.0, -x.x() / x.z(), 0.0, 1.0, -x.y() / x.z();
-  return focal_px / x.z() * jacobian;
+Eigen::Vector2d Project(const TagView& view, const Eigen::Vector3d& x) {
+  const Eigen::Vector2d p = x.hnormalized();
+  return view.focal_px * (1.0 + view.k1 * p.squaredNorm()) * p;
+}
+
+Matrix23 ProjectionByPoint(const TagView& view, const Eigen::Vector3d& x) {
+  const Eigen::Vector2d p = x.hnormalized();
+  Matrix23 p_by_x;
+  p_by_x << 1.0, 0.0, -p.x(), 0.0, 1.0, -p.y();
+  return view.focal_px / x.z() *
+         ((1.0 + view.k1 * p.squaredNorm()) * Eigen::Matrix2d::Identity() +
+          2.0 * view.k1 * p * p.transpose()) *
+         p_by_x;
 }
 
 // A pose's frames from the parameter blocks of pose_costs.h.
@@ -63,19 +75,22 @@ class TagCost final : public BoneCost {
   TagCost(const Articulation& body, const TagView& view, const TagInPicture& tag, bool fits)
       : BoneCost(body, 8), view_(view), tag_(tag), fits_(fits) {
     if (!fits_) return;
-    for (const int size : {3, 4, kNumBoneGroups}) mutable_parameter_block_sizes()->push_back(size);
+    for (const int size : {3, 4, kNumBoneGroups, 2})
+      mutable_parameter_block_sizes()->push_back(size);
     fitted_ = body.skeleton;
   }
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
     Eigen::Isometry3d bone_from_tag = tag_.bone_from_tag;
+    TagView view = view_;
     if (fits_) {
       bone_from_tag.translation() = Eigen::Map<const Eigen::Vector3d>(parameters[3]);
       bone_from_tag.linear() =
           Eigen::Quaterniond(parameters[4][3], parameters[4][0], parameters[4][1], parameters[4][2])
               .toRotationMatrix();
       SetProportions(body_->skeleton, Eigen::Map<const GroupVector>(parameters[5]), &fitted_);
+      view = WithLens(view_, Eigen::Map<const LensVector>(parameters[6]));
     }
     const Skeleton& skeleton = fits_ ? fitted_ : body_->skeleton;
     Pose(parameters, skeleton);
@@ -87,7 +102,7 @@ class TagCost final : public BoneCost {
     if (!(in_cam_m.row(2).minCoeff() > kNearest_m)) return false;
     Eigen::Map<Eigen::Matrix<double, 8, 1>> r(residuals);
     for (int i = 0; i < 4; ++i)
-      r.segment<2>(2 * i) = view_.focal_px * in_cam_m.col(i).hnormalized() - tag_.corners_px.col(i);
+      r.segment<2>(2 * i) = Project(view, in_cam_m.col(i)) - tag_.corners_px.col(i);
     r = tag_.whitening * r;
     if (!jacobians) return true;
 
@@ -98,7 +113,7 @@ class TagCost final : public BoneCost {
     Eigen::Matrix<double, 8, 3> by_turn;   // by a turn in the bone's frame
     for (int i = 0; i < 4; ++i) {
       const Matrix23 by_point =
-          ProjectionByPoint(view_.focal_px, in_cam_m.col(i)) * view_.cam_from_world.linear();
+          ProjectionByPoint(view, in_cam_m.col(i)) * view_.cam_from_world.linear();
       by_world.middleRows<2>(2 * i) = by_point;
       by_pose.middleRows<2>(2 * i).noalias() =
           by_point * (frame_jacobian_.topRows<3>() -
@@ -108,7 +123,9 @@ class TagCost final : public BoneCost {
     }
     by_world = (tag_.whitening * by_world).eval();
     WritePose<8>(tag_.whitening * by_pose, jacobians);
-    if (fits_) WriteFit(by_world, tag_.whitening * by_turn, G, parameters[4], jacobians);
+    if (!fits_) return true;
+    WriteFit(by_world, tag_.whitening * by_turn, G, parameters[4], jacobians);
+    if (jacobians[6]) WriteLens(view, in_cam_m, jacobians[6]);
     return true;
   }
 
@@ -129,6 +146,17 @@ class TagCost final : public BoneCost {
       start_by_ratios.col(GroupOfJoint(b)) +=
           frames_.tip_in_world_m.col(b) - frames_.start_in_world_m.col(b);
     RowMajorMap<8>(jacobians[5], 8, kNumBoneGroups) = by_world * start_by_ratios;
+  }
+
+  void WriteLens(const TagView& view, const Eigen::Matrix<double, 3, 4>& in_cam_m,
+                 double* jacobian) const {
+    Eigen::Matrix<double, 8, 2> by_lens;
+    for (int i = 0; i < 4; ++i) {
+      const Eigen::Vector2d p = in_cam_m.col(i).hnormalized();
+      by_lens.middleRows<2>(2 * i) << Project(view, in_cam_m.col(i)),
+          view.focal_px * p.squaredNorm() * p;
+    }
+    RowMajorMap<8>(jacobian, 8, 2) = tag_.whitening * by_lens;
   }
 
   TagView view_;
@@ -169,10 +197,22 @@ TagCorners CornersWithoutLens(const Camera& camera, const TagCorners& corners_px
   return without_px;
 }
 
+double CornerSigma_px(const TagDetection& tag, double refined_sigma_px) {
+  return tag.is_refined ? refined_sigma_px : std::max(refined_sigma_px, kHiddenEdgeSigma_px);
+}
+
+TagView WithLens(TagView view, const LensVector& lens) {
+  view.focal_px *= std::exp(lens[0]);
+  view.k1 += lens[1];
+  return view;
+}
+
 TagCorners ProjectTag(const TagView& view, const Eigen::Isometry3d& cam_from_tag, double size_m) {
   const Eigen::Matrix<double, 3, 4> in_cam_m = cam_from_tag * TagCorners_m(size_m);
   if (!(in_cam_m.row(2).minCoeff() > kNearest_m)) return TagCorners::Constant(std::nan(""));
-  return view.focal_px * in_cam_m.colwise().hnormalized();
+  TagCorners corners_px;
+  for (int i = 0; i < 4; ++i) corners_px.col(i) = Project(view, in_cam_m.col(i));
+  return corners_px;
 }
 
 Eigen::Matrix<double, 8, 8> TagWhitening(const TagView& view, const Eigen::Isometry3d& cam_from_tag,
@@ -182,7 +222,7 @@ Eigen::Matrix<double, 8, 8> TagWhitening(const TagView& view, const Eigen::Isome
   const Eigen::Matrix<double, 3, 4> corners_m = TagCorners_m(size_m);
   for (int i = 0; i < 4; ++i) {
     const Matrix23 by_point =
-        ProjectionByPoint(view.focal_px, cam_from_tag * corners_m.col(i)) * cam_from_tag.linear();
+        ProjectionByPoint(view, cam_from_tag * corners_m.col(i)) * cam_from_tag.linear();
     by_mount.middleRows<2>(2 * i) << sigma_m * by_point,
         -sigma_rad * by_point * Cross(corners_m.col(i));
   }

@@ -19,11 +19,12 @@ namespace poselift {
 
 using TagCorners = Eigen::Matrix<double, 2, 4>;
 
-// A tag on a bone, as a camera without lens distortion sees it. Corner i, c_i in the tag's
+// A tag on a bone, as a camera freed of its lens distortion sees it. Corner i, c_i in the tag's
 // frame, is where the pose q has it:
 //
 //   x_i(q) = cam_from_world (start(q) + G(q) (R c_i + t)),   (R, t) = bone_from_tag,
-//   r(q)   = W [focal (x_i / z_i, y_i / z_i) - corner_i],    8 rows,
+//   p_i    = (x_i / z_i, y_i / z_i),
+//   r(q)   = W [focal (1 + k1 |p_i|^2) p_i - corner_i],      8 rows,
 //
 // with corners in pixels from the principal point. W^T W is the inverse of their
 // covariance, that of the noise and of how loosely the tag sits: TagWhitening.
@@ -38,11 +39,19 @@ struct TagInPicture {
 struct TagView {
   double focal_px = 0.0;
   Eigen::Isometry3d cam_from_world = Eigen::Isometry3d::Identity();
+  double k1 = 0.0;  // of a lens that is still to be found
 };
+
+// What a self-calibrated camera has to be found: log(focal / focal_px), k1 (camera.h).
+using LensVector = Eigen::Vector2d;
+TagView WithLens(TagView view, const LensVector& lens);
 
 // Corners as that view has them: freed of the lens, from the principal point, at focal length
 // fx_px. NaN where the lens shows nothing.
 TagCorners CornersWithoutLens(const Camera& camera, const TagCorners& corners_px);
+
+// Of x and of y of a corner, given that of corners where edges meet (TagDetection).
+double CornerSigma_px(const TagDetection& tag, double refined_sigma_px);
 
 // W with W^T W the inverse of a covariance.
 template <int kSize>
@@ -67,9 +76,10 @@ Eigen::Matrix<double, 8, 8> TagWhitening(const TagView& view, const Eigen::Isome
 std::unique_ptr<ceres::CostFunction> MakeTagCost(const Articulation& body, const TagView& view,
                                                  const TagInPicture& tag);
 
-// The same with where the tag sits and the lengths of the bones as further unknowns:
-// behind its blocks come t (3), R (a unit quaternion x y z w) and the kNumBoneGroups log
-// ratios to the lengths of `standard` (body_proportions.h), whose bones end at the joints.
+// The same with where the tag sits, the lengths of the bones and the lens as further
+// unknowns: behind its blocks come t (3), R (a unit quaternion x y z w), the kNumBoneGroups
+// log ratios to the lengths of `standard` (body_proportions.h), whose bones end at the
+// joints, and LensVector.
 std::unique_ptr<ceres::CostFunction> MakeTagFitCost(const Articulation& standard,
                                                     const TagView& view, const TagInPicture& tag);
 

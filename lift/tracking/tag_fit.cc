@@ -137,13 +137,13 @@ TagFit FitTags(const std::vector<SightedFrame>& frames, const BodyTags& said, co
   const Skeleton& standard = lifter.dictionary().skeleton;
   TagBundle bundle(standard, lifter.dictionary().prior, camera, cam_from_world, options);
   AddMounts(said, standard, &bundle);
-  TagFit fit{.tags = said, .skeleton = standard};
+  TagFit fit{.tags = said, .skeleton = standard, .camera = camera};
   std::vector<PosedFrame> posed;
   for (int round = 0; round < options.rounds; ++round) {
     const ProgressFn part = [&](double fraction) {
       if (progress) progress((round + fraction) / options.rounds);
     };
-    TagTracker tracker(fit.skeleton, fit.tags, camera, cam_from_world, lifter, codebook,
+    TagTracker tracker(fit.skeleton, fit.tags, fit.camera, cam_from_world, lifter, codebook,
                        {.filter = {.latency_s = kLatency_s, .variance_scale = 15.0}});
     posed = MostDifferent(Track(frames, &tracker, part), options.num_frames);
     fit.num_frames = static_cast<int>(posed.size());
@@ -163,8 +163,10 @@ TagFit FitTags(const std::vector<SightedFrame>& frames, const BodyTags& said, co
     }
     fit.skeleton = WithProportions(standard, bundle.ratios);
     fit.tags = FoundTags(said, bundle, fit.skeleton);
+    fit.camera = bundle.FoundCamera();
   }
   fit.is_usable = true;
+  fit.focal_sigma = std::sqrt(bundle.lens_covariance(0, 0));
   fit.proportions = {bundle.ratios, bundle.ratios_covariance};
   for (const auto& [id, mount] : bundle.mounts) fit.rows.push_back(RowOf(mount, bundle, posed));
   return fit;

@@ -27,6 +27,8 @@ struct TagFit {
   BodyTags tags;        // on bones, all that were seen; with the lengths of the bones
   Skeleton skeleton;    // of these lengths
   BodyProportions proportions;
+  Camera camera;             // with the lens that was found, if that was asked for
+  double focal_sigma = 0.0;  // of the logarithm of its focal length
   std::vector<TagFitRow> rows;
   int num_frames = 0;  // adjusted
 };

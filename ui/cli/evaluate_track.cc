@@ -107,7 +107,7 @@ std::vector<Row> RunTest(const Test& test, const PhotoLifter& lifter,
   TrackingInputs guessed;
   guessed.fov_deg = options.experiment.fov_deg;
   const Camera& known = video.tagged.camera;
-  const Camera weak = CameraOf(guessed, {known.width_px, known.height_px});
+  const Camera guess = CameraOf(guessed, {known.width_px, known.height_px});
   std::vector<const TaggedVideo*> fit_videos;
   for (const std::string& trial : test.fitted_on) fit_videos.push_back(&videos->Of(trial).tagged);
 
@@ -118,13 +118,13 @@ std::vector<Row> RunTest(const Test& test, const PhotoLifter& lifter,
                                lifter, codebook)});
   };
   add("camera known, tags as said", said, known);
-  for (const auto& [name, camera] :
-       {std::pair<std::string, const Camera&>{"camera known", known}, {"camera not known", weak}}) {
+  for (const bool is_known : {true, false}) {
+    const Camera& start = is_known ? known : guess;
     Progress progress("fit " + test.trial);
-    const TagFit fit = FitTags(SightFrames(fit_videos, said, camera), said, camera, kLevelFromCam,
-                               lifter, codebook, {}, progress.Callback());
+    const TagFit fit = FitTags(SightFrames(fit_videos, said, start), said, start, kLevelFromCam,
+                               lifter, codebook, {.finds_lens = !is_known}, progress.Callback());
     if (!fit.is_usable) throw std::runtime_error(test.trial + ": " + fit.message);
-    add(name + ", tags fitted", fit.tags, camera);
+    add(is_known ? "camera known, tags fitted" : "camera found, tags fitted", fit.tags, fit.camera);
   }
   return rows;
 }
@@ -180,7 +180,7 @@ int Evaluate(const Options& options) {
       "rendered at {:g} m, 1280 x 720, {} tags of {:g} mm, exposure {:.1f} ms, noise {:g} grey "
       "levels; "
       "tags {:g} mm and {:.1f} degrees off what is said; seed {}\n",
-      experiment.distance_m, experiment.around ? 40 : 13, 1e3 * experiment.tag_size_m,
+      experiment.distance_m, experiment.around ? 36 : 13, 1e3 * experiment.tag_size_m,
       1e3 * experiment.exposure_s, experiment.noise_grey_levels, 1e3 * experiment.misplaced_m,
       experiment.misplaced_rad * 180.0 / 3.14159265, experiment.seed);
   Print(rows);
@@ -209,7 +209,7 @@ CLI::App* AddEvaluateTrack(CLI::App* app, Run* run) {
   command->add_option("--tag-size-m", experiment.tag_size_m, "Of all tags")
       ->check(IsNumber(0.01, 0.3))
       ->capture_default_str();
-  command->add_flag("--around", experiment.around, "40 tags on all sides, not 13 in front");
+  command->add_flag("--around", experiment.around, "36 tags on all sides, not 13 in front");
   command->add_option("--exposure-s", experiment.exposure_s, "Of each frame: motion blur")
       ->check(IsNumber(0.0, 0.033))
       ->capture_default_str();

@@ -7,8 +7,11 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
+#include <cmath>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -16,6 +19,7 @@
 #include "lift/tracking/tag_fit.h"
 #include "src/io/atomic_file.h"
 #include "src/io/body_tags_toml.h"
+#include "src/io/camera_yaml.h"
 #include "src/level_camera.h"
 #include "ui/cli/frame_rate.h"
 #include "ui/cli/progress.h"
@@ -26,11 +30,12 @@
 namespace poselift::cli {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct Options {
   TrackingInputs inputs;
-  std::string tags, out, json;
+  std::string tags, out, camera_out, json;
   double seconds = 60.0;
   TagFitOptions fit;
 };
@@ -72,10 +77,19 @@ void Print(const TagFit& fit, const BodyTags& tags) {
   fmt::print(" %\n");
 }
 
+// Of a camera that was found: how wide it sees.
+void PrintCamera(const TagFit& fit) {
+  const double half_rad = std::atan(0.5 * fit.camera.width_px / fit.camera.fx_px);
+  fmt::print("camera: focal length {:.0f} ± {:.0f} px ({:.1f} degrees wide), k1 {:+.3f}\n",
+             fit.camera.fx_px, fit.camera.fx_px * fit.focal_sigma,
+             360.0 / std::numbers::pi * half_rad, fit.camera.distortion.k1);
+}
+
 void WriteJson(const TagFit& fit, const Options& options) {
   Json json = {{"command", "tags fit"},
                {"input", options.inputs.input},
                {"frames", fit.num_frames},
+               {"focal_px", fit.camera.fx_px},
                {"rows", Json::array()}};
   for (const TagFitRow& row : fit.rows)
     json["rows"].push_back({{"id", row.id},
@@ -86,7 +100,8 @@ void WriteJson(const TagFit& fit, const Options& options) {
   WriteFileAtomically(options.json, json.dump(1) + "\n");
 }
 
-int Fit(const Options& options) {
+int Fit(Options options) {
+  options.fit.finds_lens = options.inputs.camera.empty();
   const BodyTags tags = ReadBodyTags(options.tags);
   const TrackingModels models = ReadModels(options.inputs);
   const PhotoLifter lifter(models.dictionary);
@@ -104,6 +119,13 @@ int Fit(const Options& options) {
   Print(fit, tags);
   if (!options.json.empty()) WriteJson(fit, options);
   fmt::print("{} frames adjusted together; tags in {}\n", fit.num_frames, options.out);
+  if (!options.fit.finds_lens) return kDone;
+  const std::string camera_out =
+      options.camera_out.empty() ? fs::path(options.out).replace_extension(".camera.yaml").string()
+                                 : options.camera_out;
+  WriteCameraYaml(fit.camera, camera_out);
+  PrintCamera(fit);
+  fmt::print("track with --camera {}\n", camera_out);
   return kDone;
 }
 
@@ -115,11 +137,15 @@ CLI::App* AddTagsFit(CLI::App* tags, Run* run) {
       "fit", "Where the tags sit, and how long the bones are, from a short movement");
   command->footer(
       "Stand before the camera with all tags on, then, slowly: bend and turn arms and legs, twist\n"
-      "and bow the trunk, turn to both sides; half a minute.\n"
+      "and bow the trunk, turn to both sides; half a minute. Without --camera the focal length "
+      "and\n"
+      "the distortion k1 are found as well: step nearer and back, too.\n"
       "Example:\n  poselift tags fit move.mkv --camera cam.yaml --tags tags.toml --out mine.toml");
   AddTrackingInputs(command, &options->inputs);
   command->add_option("--tags", options->tags, "Where they sit about (tags.toml)")->required();
   command->add_option("--out", options->out, "The tags file to write")->required();
+  command->add_option("--camera-out", options->camera_out,
+                      "Without --camera: the camera file to write (default: beside --out)");
   command->add_option("--seconds", options->seconds, "Of the movement")
       ->check(IsNumber(1.0, 600.0))
       ->capture_default_str();

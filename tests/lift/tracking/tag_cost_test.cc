@@ -82,18 +82,20 @@ TEST_F(TagCostTest, JacobiansAreThoseOfTheResiduals) {
   ExpectPoseJacobians(*MakeTagCost(body_, view_, tag_), Blocks());
 }
 
-TEST_F(TagCostTest, JacobiansOfMountAndLengthsAreThoseOfTheResiduals) {
+TEST_F(TagCostTest, JacobiansOfMountLengthsAndLensAreThoseOfTheResiduals) {
   tag_.corners_px.array() += 0.01;
   const auto cost = MakeTagFitCost(body_, view_, tag_);
   Eigen::Vector3d t = tag_.bone_from_tag.translation();
   Eigen::Quaterniond R(tag_.bone_from_tag.linear());
   GroupVector ratios = 0.1 * RandomMatrix(kNumBoneGroups, 1, &rng_);
   std::vector<double*> blocks = Blocks();
-  blocks.insert(blocks.end(), {t.data(), R.coeffs().data(), ratios.data()});
+  LensVector lens(0.1, -0.2);
+  blocks.insert(blocks.end(), {t.data(), R.coeffs().data(), ratios.data(), lens.data()});
   ExpectPoseJacobians(*cost, blocks);
   ExpectJacobianAgrees(*cost, blocks, 3, ceres::EuclideanManifold<3>());
   ExpectJacobianAgrees(*cost, blocks, 4, ceres::EigenQuaternionManifold());
   ExpectJacobianAgrees(*cost, blocks, 5, ceres::EuclideanManifold<kNumBoneGroups>());
+  ExpectJacobianAgrees(*cost, blocks, 6, ceres::EuclideanManifold<2>());
 }
 
 TEST_F(TagCostTest, LengthsOfTheBonesBeforeTheTagMoveIt) {
@@ -101,8 +103,9 @@ TEST_F(TagCostTest, LengthsOfTheBonesBeforeTheTagMoveIt) {
   Eigen::Vector3d t = tag_.bone_from_tag.translation();
   Eigen::Quaterniond R(tag_.bone_from_tag.linear());
   GroupVector ratios = GroupVector::Zero();
+  LensVector lens = LensVector::Zero();
   std::vector<double*> blocks = Blocks();
-  blocks.insert(blocks.end(), {t.data(), R.coeffs().data(), ratios.data()});
+  blocks.insert(blocks.end(), {t.data(), R.coeffs().data(), ratios.data(), lens.data()});
   for (int g = 0; g < kNumBoneGroups; ++g) {
     ratios.setZero();
     ratios[g] = 0.2;

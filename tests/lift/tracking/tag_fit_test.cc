@@ -62,7 +62,11 @@ class TagFitTest : public ::testing::Test {
 
   TagFit Fit(const std::vector<SightedFrame>& frames, const BodyTags& said,
              const TagFitOptions& options = {.num_frames = 40}) const {
-    return FitTags(frames, said, person_.camera, kLevelFromCam, lifter_, codebook_, options);
+    return Fit(frames, said, options, person_.camera);
+  }
+  TagFit Fit(const std::vector<SightedFrame>& frames, const BodyTags& said,
+             const TagFitOptions& options, const Camera& camera) const {
+    return FitTags(frames, said, camera, kLevelFromCam, lifter_, codebook_, options);
   }
 
   double Mean_mm(const BodyTags& tags, const std::vector<std::string>& bones) const {
@@ -98,6 +102,23 @@ TEST_F(TagFitTest, FindsTagsOnLegsAndTheLengthOfThighs) {
   // What is written is what was found.
   const Skeleton person = PersonSkeleton(dictionary_.skeleton, fit.tags);
   EXPECT_LT((BoneLengths(person) - BoneLengths(fit.skeleton)).norm(), 1e-9);
+}
+
+TEST_F(TagFitTest, FindsTheFocalLengthOfACameraThatNobodyCalibrated) {
+  Camera guess = person_.camera;
+  guess.fx_px = guess.fy_px *= 1.25;
+  guess.distortion = {};
+  const std::vector<SightedFrame> frames = Movement(60);
+  const TagFit found = Fit(frames, Said(), {.num_frames = 40, .finds_lens = true}, guess);
+  ASSERT_TRUE(found.is_usable) << found.message;
+  EXPECT_NEAR(found.camera.fx_px / person_.camera.fx_px, 1.0, 0.05);
+  EXPECT_EQ(found.camera.fx_px, found.camera.fy_px);
+  EXPECT_GT(found.focal_sigma, 0.0);
+  EXPECT_LT(found.focal_sigma, 0.05);
+  // A camera that is known stays as it is.
+  const TagFit kept = Fit(frames, Said(), {.num_frames = 15, .rounds = 1}, guess);
+  EXPECT_EQ(kept.camera.fx_px, guess.fx_px);
+  EXPECT_EQ(kept.focal_sigma, 0.0);
 }
 
 TEST_F(TagFitTest, SaysWhatToDoWhenNobodyIsSeen) {

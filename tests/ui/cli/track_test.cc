@@ -133,6 +133,22 @@ TEST_F(TrackProgram, FitsTagsThatTrackThenReads) {
     EXPECT_LT(Error_mm(frame), 60.0);
 }
 
+TEST_F(TrackProgram, FitsTheCameraToo) {
+  Render(20);
+  const ProgramRun fit = RunProgram(
+      "tags fit frames --fps 15 --fov-deg 60 --tags tags.toml --out mine.toml --frames 20" +
+      kModels);
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  EXPECT_THAT(fit.out, HasSubstr("track with --camera mine.camera.yaml"));
+  const Camera found = ReadCameraYaml(ScratchDir() / "mine.camera.yaml");
+  EXPECT_NEAR(found.fx_px / person_.camera.fx_px, 1.0, 0.08);  // 60 degrees: 1.23
+  const ProgramRun run = RunProgram(
+      "track frames --fps 15 --camera mine.camera.yaml --tags mine.toml --out run" + kModels);
+  ASSERT_EQ(run.code, 0) << run.err;
+  for (const FramePoses& frame : ReadPosesJson(ScratchDir() / "run/poses.json").frames)
+    EXPECT_LT(Error_mm(frame), 60.0);
+}
+
 TEST_F(TrackProgram, WhatIsWrongIsRefusedBeforeAnythingIsWritten) {
   fs::create_directories(ScratchDir() / "frames");
   WritePng(ScratchDir() / "frames/a.png", cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(90)));
