@@ -4,12 +4,70 @@
 
 #include <algorithm>
 
+#include "src/joints.h"
+
 namespace poselift {
+namespace {
+
+constexpr double kFacingSigma_rad = 0.3;
+
+// At rest, where bones have the world's axes: x to the left, y up, z to the front.
+Eigen::Vector3d Direction(TagFacing faces) {
+  switch (faces) {
+    case TagFacing::kFront:
+      return Eigen::Vector3d::UnitZ();
+    case TagFacing::kBack:
+      return -Eigen::Vector3d::UnitZ();
+    case TagFacing::kLeft:
+      return Eigen::Vector3d::UnitX();
+    case TagFacing::kRight:
+      return -Eigen::Vector3d::UnitX();
+    case TagFacing::kUp:
+      break;
+  }
+  return Eigen::Vector3d::UnitY();
+}
+
+Eigen::Matrix3d BoneFromTag(const Bone& bone, TagFacing faces) {
+  const Eigen::Vector3d along = bone.tip_m.normalized();  // 0 of the pelvis
+  const bool is_limb = !along.isZero() && along.y() < 0.5;
+  Eigen::Vector3d outward = Direction(faces);
+  Eigen::Vector3d down = -Eigen::Vector3d::UnitY();
+  if (std::abs(along.x()) > 0.8) {  // an arm: level at rest
+    outward = Eigen::Quaterniond::FromTwoVectors(down, along) * outward;
+    down = along;
+  } else if (is_limb) {
+    down = along;
+  }
+  Eigen::Matrix3d bone_from_tag;
+  bone_from_tag.col(1) = down;
+  bone_from_tag.col(2) = -(outward - outward.dot(down) * down).normalized();
+  bone_from_tag.col(0) = down.cross(bone_from_tag.col(2));
+  return bone_from_tag;
+}
+
+}  // namespace
 
 const BodyTag* BodyTags::Find(int id) const {
   const auto found =
       std::find_if(tags.begin(), tags.end(), [&](const BodyTag& tag) { return tag.id == id; });
   return found == tags.end() ? nullptr : &*found;
+}
+
+BodyTags OnBones(BodyTags tags, const Skeleton& skeleton) {
+  for (BodyTag& tag : tags.tags) {
+    if (tag.on_bone || !tag.on_joint || !tag.on_joint->faces) continue;
+    const auto joint = FindJoint(tag.on_joint->joint);
+    if (!joint) continue;
+    const Bone& bone = skeleton.bones.at(static_cast<size_t>(*joint));
+    tag.on_bone = TagOnBone{
+        .bone = bone.name, .sigma_m = tag.on_joint->sigma_m, .sigma_rad = kFacingSigma_rad};
+    tag.on_bone->bone_from_tag.linear() = BoneFromTag(bone, *tag.on_joint->faces);
+    tag.on_bone->bone_from_tag.translation() =
+        bone.tip_m - tag.on_bone->bone_from_tag.linear() * tag.on_joint->joint_in_tag_m;
+    tag.on_joint.reset();
+  }
+  return tags;
 }
 
 }  // namespace poselift

@@ -9,16 +9,24 @@
 #include <utility>
 #include <vector>
 
+#include "src/skeleton.h"
+
 namespace poselift {
 
 // The tags that a person wears: the content of tags.toml. Frames and sizes of tags are
 // those of tag_detection.h.
+
+// Away from the body, while its wearer stands with hanging arms.
+enum class TagFacing { kFront, kBack, kLeft, kRight, kUp };
 
 // Where a tag sits, by a joint: a guess that needs no measuring but the depth of the flesh.
 struct TagOnJoint {
   std::string joint;  // JointName
   Eigen::Vector3d joint_in_tag_m = Eigen::Vector3d::Zero();
   double sigma_m = 0.02;
+  // If it is known the tag is taken for fixed to the bone that ends at the joint: the print
+  // is upright on trunk and head, and runs along the bone to the joint on limbs.
+  std::optional<TagFacing> faces;
 };
 
 // Where a tag sits, all of it: fixed to a bone, in the frame of Bone (skeleton.h).
@@ -46,5 +54,9 @@ struct BodyTags {
 
   const BodyTag* Find(int id) const;  // nullptr: not of this person
 };
+
+// Tags that say what they face, as they sit on the bones of a skeleton whose bones end at the
+// 23 joints: about, some 17 degrees off. The others stay as they are.
+BodyTags OnBones(BodyTags tags, const Skeleton& skeleton);
 
 }  // namespace poselift

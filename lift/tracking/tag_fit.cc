@@ -136,7 +136,8 @@ TagFit FitTags(const std::vector<SightedFrame>& frames, const BodyTags& said, co
   if (const std::string error = options.Validate(); !error.empty()) throw InputError(error);
   const Skeleton& standard = lifter.dictionary().skeleton;
   TagBundle bundle(standard, lifter.dictionary().prior, camera, cam_from_world, options);
-  AddMounts(said, standard, &bundle);
+  const BodyTags said_on_bones = OnBones(said, standard);
+  AddMounts(said_on_bones, standard, &bundle);
   TagFit fit{.tags = said, .skeleton = standard, .camera = camera};
   std::vector<PosedFrame> posed;
   for (int round = 0; round < options.rounds; ++round) {

@@ -123,7 +123,7 @@ TagTracker::TagTracker(const Skeleton& skeleton, const BodyTags& tags, const Cam
     throw InputError(
         "found a dictionary and a motion model of different skeletons, wanted one skeleton: learn "
         "both from the same motions");
-  for (const BodyTag& tag : tags.tags) {
+  for (const BodyTag& tag : OnBones(tags, skeleton).tags) {
     Worn worn{.tag = tag};
     if (tag.on_bone) worn.bone = BoneOf(body_, tag);
     if (tag.on_joint) worn.joint = JointOf(tag);

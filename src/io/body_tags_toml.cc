@@ -26,6 +26,16 @@ constexpr double kMetresFromMm = 1e-3;
 constexpr double kLargestSigma_mm = 1000.0, kLargestSigma_deg = 180.0;
 constexpr double kUnitTolerance = 0.01;  // of a rotation's length
 
+struct NamedFacing {
+  TagFacing faces;
+  const char* name;
+};
+constexpr NamedFacing kFacings[] = {{TagFacing::kFront, "front"},
+                                    {TagFacing::kBack, "back"},
+                                    {TagFacing::kLeft, "left"},
+                                    {TagFacing::kRight, "right"},
+                                    {TagFacing::kUp, "up"}};
+
 // One table of the file, with where it stands for errors.
 class Table {
  public:
@@ -105,6 +115,14 @@ double Sigma_m(const Table& table, std::string_view key, double otherwise_m) {
   return table.Has(key) ? table.Number(key, 0.01, kLargestSigma_mm) * kMetresFromMm : otherwise_m;
 }
 
+TagFacing ReadFacing(const Table& table) {
+  const std::string name = table.String("faces");
+  for (const NamedFacing& facing : kFacings)
+    if (name == facing.name) return facing.faces;
+  throw table.Unwanted(*table.Find("faces"), "faces",
+                       "\"front\", \"back\", \"left\", \"right\" or \"up\", found " + Quoted(name));
+}
+
 TagOnJoint ReadOnJoint(const Table& table) {
   TagOnJoint on_joint;
   const std::string name = table.String("joint");
@@ -118,6 +136,7 @@ TagOnJoint ReadOnJoint(const Table& table) {
     on_joint.joint_in_tag_m =
         table.Vector<3>("joint_in_tag_mm", kFarthestFromTag_m / kMetresFromMm) * kMetresFromMm;
   on_joint.sigma_m = Sigma_m(table, "joint_sigma_mm", on_joint.sigma_m);
+  if (table.Has("faces")) on_joint.faces = ReadFacing(table);
   return on_joint;
 }
 
@@ -155,9 +174,9 @@ void CheckBelongings(const Table& table, std::string_view place,
 }
 
 BodyTag ReadTag(const Table& table, std::optional<double> size_mm) {
-  table.CheckKeys({"id", "size_mm", "name", "joint", "joint_in_tag_mm", "joint_sigma_mm", "bone",
-                   "position_mm", "rotation", "position_sigma_mm", "rotation_sigma_deg"});
-  CheckBelongings(table, "joint", {"joint_in_tag_mm", "joint_sigma_mm"});
+  table.CheckKeys({"id", "size_mm", "name", "joint", "joint_in_tag_mm", "joint_sigma_mm", "faces",
+                   "bone", "position_mm", "rotation", "position_sigma_mm", "rotation_sigma_deg"});
+  CheckBelongings(table, "joint", {"joint_in_tag_mm", "joint_sigma_mm", "faces"});
   CheckBelongings(table, "bone",
                   {"position_mm", "rotation", "position_sigma_mm", "rotation_sigma_deg"});
   BodyTag tag;
@@ -256,6 +275,10 @@ std::string TagToml(const BodyTag& tag) {
     text += fmt::format("joint = {}\njoint_in_tag_mm = {}\njoint_sigma_mm = {}\n",
                         TomlText(tag.on_joint->joint), MmVector(tag.on_joint->joint_in_tag_m),
                         Mm(tag.on_joint->sigma_m));
+  if (tag.on_joint && tag.on_joint->faces)
+    for (const NamedFacing& facing : kFacings)
+      if (facing.faces == *tag.on_joint->faces)
+        text += fmt::format("faces = \"{}\"\n", facing.name);
   if (tag.on_bone) {
     const TagOnBone& on_bone = *tag.on_bone;
     const Eigen::Quaterniond q(on_bone.bone_from_tag.linear());

@@ -82,6 +82,32 @@ class Placer {
     Add(site, "right ", "r", -1.0, tags);
   }
 
+  // Moved out until no part of the body reaches through the paper, seen by an eye so
+  // far before it that its rays are as good as parallel.
+  Eigen::Isometry3d OnSurface(int bone, const Eigen::Isometry3d& bone_from_tag,
+                              double size_m) const {
+    constexpr double kFar_m = 20.0;
+    constexpr double kReach_m = 0.3;  // a part of the body further off is not this one
+    constexpr int kRays = 9;
+    const Eigen::Isometry3d tag_from_rest =
+        (Eigen::Translation3d(frames_.start_in_world_m.col(bone)) * bone_from_tag).inverse();
+    const Eigen::Isometry3d eye_from_rest = Eigen::Translation3d(0, 0, kFar_m) * tag_from_rest;
+    const double half_m = 0.5 * options_.paper_per_size * size_m;
+    double nearest_m = kFar_m + kReach_m;
+    for (const BodyPart& part : body_) {
+      const SeenRoundCone seen(
+          part.cone, eye_from_rest * Eigen::Translation3d(frames_.start_in_world_m.col(part.bone)));
+      for (int i = 0; i < kRays * kRays; ++i) {
+        const Eigen::Vector2d at_m =
+            half_m * Eigen::Vector2d(2.0 * (i % kRays) / (kRays - 1) - 1,
+                                     2.0 * (i / kRays) / (kRays - 1) - 1);  // NOLINT
+        const double depth_m = seen.Depth_m((at_m / kFar_m).cast<float>());
+        if (depth_m > kFar_m - kReach_m) nearest_m = std::min(nearest_m, depth_m);
+      }
+    }
+    return bone_from_tag * Eigen::Translation3d(0, 0, nearest_m - kFar_m - options_.gap_m);
+  }
+
  private:
   void Add(const Site& site, const std::string& side_name, const std::string& prefix, double side,
            BodyTags* tags) const {
@@ -94,7 +120,7 @@ class Placer {
     BodyTag tag{options_.first_id + static_cast<int>(tags->tags.size()), options_.size_m,
                 side_name + site.name};
     tag.on_bone.emplace().bone = bone_name;
-    tag.on_bone->bone_from_tag = OnSurface(*bone, Upright(site, *bone, side));
+    tag.on_bone->bone_from_tag = OnSurface(*bone, Upright(site, *bone, side), tag.size_m);
     tags->tags.push_back(std::move(tag));
   }
 
@@ -109,29 +135,6 @@ class Placer {
     bone_from_tag.linear().col(0) = down.cross(bone_from_tag.linear().col(2));
     bone_from_tag.translation() = site.share * tip_m;
     return bone_from_tag;
-  }
-
-  // Moved out until no part of the body reaches through the paper, seen by an eye so
-  // far before it that its rays are as good as parallel.
-  Eigen::Isometry3d OnSurface(int bone, const Eigen::Isometry3d& bone_from_tag) const {
-    constexpr double kFar_m = 20.0;
-    constexpr int kRays = 9;
-    const Eigen::Isometry3d tag_from_rest =
-        (Eigen::Translation3d(frames_.start_in_world_m.col(bone)) * bone_from_tag).inverse();
-    const Eigen::Isometry3d eye_from_rest = Eigen::Translation3d(0, 0, kFar_m) * tag_from_rest;
-    const double half_m = 0.5 * options_.paper_per_size * options_.size_m;
-    float nearest_m = static_cast<float>(kFar_m);
-    for (const BodyPart& part : body_) {
-      const SeenRoundCone seen(
-          part.cone, eye_from_rest * Eigen::Translation3d(frames_.start_in_world_m.col(part.bone)));
-      for (int i = 0; i < kRays * kRays; ++i) {
-        const Eigen::Vector2d at_m =
-            half_m * Eigen::Vector2d(2.0 * (i % kRays) / (kRays - 1) - 1,
-                                     2.0 * (i / kRays) / (kRays - 1) - 1);  // NOLINT
-        nearest_m = std::min(nearest_m, seen.Depth_m((at_m / kFar_m).cast<float>()));
-      }
-    }
-    return bone_from_tag * Eigen::Translation3d(0, 0, nearest_m - kFar_m - options_.gap_m);
   }
 
   const Skeleton& skeleton_;
@@ -160,6 +163,16 @@ BodyTags DefaultTagPlacement(const Skeleton& skeleton, const TagPlacementOptions
   for (const Site& site : FrontSites()) placer.Place(site, &tags);
   if (options.around)
     for (const Site& site : OtherSites()) placer.Place(site, &tags);
+  return tags;
+}
+
+BodyTags OnSurface(BodyTags tags, const Skeleton& skeleton, const TagPlacementOptions& options) {
+  const Placer placer(skeleton, options);
+  for (BodyTag& tag : tags.tags) {
+    const auto bone = tag.on_bone ? skeleton.FindBone(tag.on_bone->bone) : std::nullopt;
+    if (!bone) throw InputError(fmt::format("found the tag {} on no bone of the skeleton", tag.id));
+    tag.on_bone->bone_from_tag = placer.OnSurface(*bone, tag.on_bone->bone_from_tag, tag.size_m);
+  }
   return tags;
 }
 

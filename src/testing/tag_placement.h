@@ -27,4 +27,9 @@ struct TagPlacementOptions {
 // Throws InputError when the skeleton lacks a bone of CMU's.
 BodyTags DefaultTagPlacement(const Skeleton& skeleton, const TagPlacementOptions& options = {});
 
+// Tags on bones, moved along their normals to just outside of BodyAround; of the options
+// paper and gap count. Throws InputError for a tag on no bone of the skeleton.
+BodyTags OnSurface(BodyTags tags, const Skeleton& skeleton,
+                   const TagPlacementOptions& options = {});
+
 }  // namespace poselift::testing

@@ -36,6 +36,7 @@ name = "left \"knee\""
 joint = "left_knee"
 joint_in_tag_mm = [0, -12.5, 60]
 joint_sigma_mm = 15
+faces = "right"
 
 [[tag]]
 id = 0
@@ -92,6 +93,7 @@ TEST(BodyTagsTest, EveryKeyOfTheFileArrivesInSiUnits) {
   EXPECT_EQ(knee.on_joint->joint, "left_knee");
   EXPECT_TRUE(MatrixNear(knee.on_joint->joint_in_tag_m, Eigen::Vector3d(0, -0.0125, 0.06), 1e-15));
   EXPECT_DOUBLE_EQ(knee.on_joint->sigma_m, 0.015);
+  EXPECT_EQ(knee.on_joint->faces, TagFacing::kRight);
   const BodyTag& shin = *tags.Find(0);
   EXPECT_DOUBLE_EQ(shin.size_m, 0.0555);
   ASSERT_TRUE(shin.on_bone && !shin.on_joint);
@@ -104,6 +106,7 @@ TEST(BodyTagsTest, EveryKeyOfTheFileArrivesInSiUnits) {
   EXPECT_DOUBLE_EQ(shin.on_bone->sigma_rad, 4.5 * kRadFromDeg);
   const BodyTag& both = *tags.Find(34);
   EXPECT_EQ(both.on_joint->joint, "head_top");
+  EXPECT_FALSE(both.on_joint->faces);
   EXPECT_EQ(both.on_bone->bone, "lradius");
   EXPECT_DOUBLE_EQ(both.on_bone->sigma_m, 0.003);
   ASSERT_EQ(tags.bone_lengths_m.size(), 2U);
@@ -122,6 +125,7 @@ TEST(BodyTagsTest, WhatIsWrittenIsReadAgainToTheLastButOneBit) {
       tag.on_joint = TagOnJoint{.joint = "left_knee",
                                 .joint_in_tag_m = {unit(rng), 1e-9 * unit(rng), unit(rng)},
                                 .sigma_m = 0.02 + 0.01 * unit(rng)};
+    if (id % 3 == 1) tag.on_joint->faces = static_cast<TagFacing>(id % 5);
     if (id % 3 != 1) {
       tag.on_bone = TagOnBone{.bone = "upperneck", .sigma_rad = 0.1 + 0.05 * unit(rng)};
       tag.on_bone->bone_from_tag.translation() << unit(rng), unit(rng), unit(rng);
@@ -144,6 +148,7 @@ TEST(BodyTagsTest, WhatIsWrittenIsReadAgainToTheLastButOneBit) {
     if (a.on_joint) {
       EXPECT_TRUE(MatrixNear(a.on_joint->joint_in_tag_m, b.on_joint->joint_in_tag_m, 1e-15));
       EXPECT_DOUBLE_EQ(a.on_joint->sigma_m, b.on_joint->sigma_m);
+      EXPECT_EQ(a.on_joint->faces, b.on_joint->faces);
     }
     if (a.on_bone) {
       EXPECT_EQ(a.on_bone->bone, b.on_bone->bone);
@@ -176,24 +181,28 @@ TEST(BodyTagsTest, BadFilesSayWhereAndWhatIsWanted) {
   EXPECT_THAT(after("\"left_knee\"\njoint_in", "\"left_kne\"\njoint_in"),
               HasSubstr("tags.toml:8: found the unknown joint \"left_kne\", wanted perhaps "
                         "\"left_knee\""));
-  EXPECT_THAT(after("left_shin", "left_chin"), HasSubstr("tags.toml:15: found the unknown bone"));
-  EXPECT_THAT(after("[0.0, 1.0, 0.0, 0.0]", "[0.5, 0.5, 0.0, 0.0]"), HasSubstr("tags.toml:17: "));
+  EXPECT_THAT(after("left_shin", "left_chin"), HasSubstr("tags.toml:16: found the unknown bone"));
+  EXPECT_THAT(after("[0.0, 1.0, 0.0, 0.0]", "[0.5, 0.5, 0.0, 0.0]"), HasSubstr("tags.toml:18: "));
   EXPECT_THAT(after("[0.0, 1.0, 0.0, 0.0]", "[0, 1, 0]"), HasSubstr("wanted 4 numbers"));
-  EXPECT_THAT(after("[0.0, 1.0, 0.0, 0.0]", "[0, nan, 0, 0]"), HasSubstr("tags.toml:17: "));
-  EXPECT_THAT(after("id = 0\n", "id = 3\n"), HasSubstr("tags.toml:12: found the tag 3 twice"));
-  EXPECT_THAT(after("id = 0\n", "id = -1\n"), HasSubstr("tags.toml:13: id: wanted a whole number"));
-  EXPECT_THAT(after("id = 0\n", ""), HasSubstr("tags.toml:12: id is missing"));
+  EXPECT_THAT(after("[0.0, 1.0, 0.0, 0.0]", "[0, nan, 0, 0]"), HasSubstr("tags.toml:18: "));
+  EXPECT_THAT(after("id = 0\n", "id = 3\n"), HasSubstr("tags.toml:13: found the tag 3 twice"));
+  EXPECT_THAT(after("id = 0\n", "id = -1\n"), HasSubstr("tags.toml:14: id: wanted a whole number"));
+  EXPECT_THAT(after("id = 0\n", ""), HasSubstr("tags.toml:13: id is missing"));
   EXPECT_THAT(after("size_mm = 80\n", ""), HasSubstr("tags.toml:4: size_mm is missing"));
-  EXPECT_THAT(after("55.5", "0"), HasSubstr("tags.toml:14: size_mm"));
+  EXPECT_THAT(after("55.5", "0"), HasSubstr("tags.toml:15: size_mm"));
   EXPECT_THAT(after("bone = \"left_shin\"\n", ""), HasSubstr("found position_mm without bone"));
   EXPECT_THAT(after("position_mm = [10.0, 20, -30]\n", ""), HasSubstr("position_mm is missing"));
   EXPECT_THAT(after("left_ankle = 400", "left_ancle = 400"),
-              HasSubstr("tags.toml:30: found the unknown joint"));
+              HasSubstr("tags.toml:31: found the unknown joint"));
   EXPECT_THAT(ErrorOf("[[tag]]\nid = 1\nsize_mm = 50\n"), HasSubstr("sits nowhere"));
   EXPECT_THAT(ErrorOf("family = \"tag36h11\"\n"), HasSubstr("found no tags"));
   EXPECT_THAT(ErrorOf("tag = 3\n"), HasSubstr("wanted [[tag]]"));
   EXPECT_THAT(ErrorOf(""), HasSubstr("found no tags"));
   EXPECT_THROW(ReadBodyTags(testing::ScratchDir() / "none.toml"), InputError);
+  EXPECT_THAT(after("\"right\"\n", "\"inside\"\n"),
+              HasSubstr("tags.toml:11: faces: wanted \"front\""));
+  EXPECT_THAT(after("bone = \"left_shin\"", "bone = \"left_shin\"\nfaces = \"up\""),
+              HasSubstr("found faces without joint"));
 }
 
 TEST(BodyTagsTest, TheFileOfRosIsTurnedIntoOurFrames) {

@@ -49,6 +49,18 @@ const std::vector<Test>& Tests() {
   return kTests;
 }
 
+const std::map<std::string, TagsWorn>& WornNames() {
+  static const std::map<std::string, TagsWorn> kNames = {
+      {"front", TagsWorn::kFront}, {"around", TagsWorn::kAround}, {"printed", TagsWorn::kPrinted}};
+  return kNames;
+}
+
+std::string NameOf(TagsWorn worn) {
+  for (const auto& [name, value] : WornNames())
+    if (value == worn) return name;
+  return "";
+}
+
 struct Options {
   std::string mocap, json;
   HeldOutModels models{.train_subjects = {"01", "02", "03", "05", "14", "17"}};
@@ -79,17 +91,18 @@ class Videos {
 
   struct Video {
     Motion motion;
-    BodyTags worn;
+    Dress dress;
     TaggedVideo tagged;
   };
   const Video& Of(const std::string& trial) {
     const auto found = videos_.find(trial);
     if (found != videos_.end()) return found->second;
     Video video{.motion = LoadTrial(sources_, trial, options_.max_frames)};
-    video.worn = DressFor(video.motion.skeleton, options_.experiment);
+    video.dress = DressFor(video.motion.skeleton, options_.experiment);
     Progress progress("render " + trial, static_cast<int64_t>(video.motion.frames.size()),
                       "frames");
-    video.tagged = RenderTagged(video.motion, video.worn, options_.experiment, progress.Callback());
+    video.tagged =
+        RenderTagged(video.motion, video.dress.worn, options_.experiment, progress.Callback());
     return videos_.emplace(trial, std::move(video)).first->second;
   }
 
@@ -103,7 +116,7 @@ std::vector<Row> RunTest(const Test& test, const PhotoLifter& lifter,
                          const std::shared_ptr<const MotionCodebook>& codebook,
                          const Options& options, Videos* videos) {
   const Videos::Video& video = videos->Of(test.trial);
-  const BodyTags said = Misplaced(video.worn, options.experiment);
+  const BodyTags& said = video.dress.said;
   TrackingInputs guessed;
   guessed.fov_deg = options.experiment.fov_deg;
   const Camera& known = video.tagged.camera;
@@ -114,7 +127,7 @@ std::vector<Row> RunTest(const Test& test, const PhotoLifter& lifter,
   std::vector<Row> rows;
   const auto add = [&](const std::string& method, const BodyTags& tags, const Camera& camera) {
     rows.push_back({method, test.action, test.trial,
-                    TrackVideo(video.tagged, video.motion.skeleton, video.worn, tags, camera,
+                    TrackVideo(video.tagged, video.motion.skeleton, video.dress.worn, tags, camera,
                                lifter, codebook)});
   };
   add("camera known, tags as said", said, known);
@@ -146,6 +159,7 @@ void WriteJson(const std::vector<Row>& rows, const Options& options) {
                {"data", std::filesystem::path(options.mocap).filename().string()},
                {"split", {{"train", options.models.train_subjects}}},
                {"seed", options.experiment.seed},
+               {"worn", NameOf(options.experiment.worn)},
                {"rows", Json::array()}};
   for (const Row& row : rows)
     json["rows"].push_back({{"method", row.method},
@@ -177,10 +191,9 @@ int Evaluate(const Options& options) {
       rows.push_back(std::move(row));
   const TrackExperimentOptions& experiment = options.experiment;
   fmt::print(
-      "rendered at {:g} m, 1280 x 720, {} tags of {:g} mm, exposure {:.1f} ms, noise {:g} grey "
-      "levels; "
-      "tags {:g} mm and {:.1f} degrees off what is said; seed {}\n",
-      experiment.distance_m, experiment.around ? 36 : 13, 1e3 * experiment.tag_size_m,
+      "rendered at {:g} m, 1280 x 720, tags {} of {:g} mm, exposure {:.1f} ms, noise {:g} grey "
+      "levels; tags {:g} mm and {:.1f} degrees off what is said; seed {}\n",
+      experiment.distance_m, NameOf(experiment.worn), 1e3 * experiment.tag_size_m,
       1e3 * experiment.exposure_s, experiment.noise_grey_levels, 1e3 * experiment.misplaced_m,
       experiment.misplaced_rad * 180.0 / 3.14159265, experiment.seed);
   Print(rows);
@@ -209,7 +222,11 @@ CLI::App* AddEvaluateTrack(CLI::App* app, Run* run) {
   command->add_option("--tag-size-m", experiment.tag_size_m, "Of all tags")
       ->check(IsNumber(0.01, 0.3))
       ->capture_default_str();
-  command->add_flag("--around", experiment.around, "36 tags on all sides, not 13 in front");
+  command
+      ->add_option("--worn", experiment.worn,
+                   "13 tags in front, 36 on all sides, or the 16 that `tags print` prints")
+      ->transform(CLI::CheckedTransformer(WornNames()))
+      ->default_str("front");
   command->add_option("--exposure-s", experiment.exposure_s, "Of each frame: motion blur")
       ->check(IsNumber(0.0, 0.033))
       ->capture_default_str();

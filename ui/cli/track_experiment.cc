@@ -8,7 +8,9 @@
 #include <numbers>
 #include <random>
 
+#include "calib/body_tag_set.h"
 #include "calib/tag_detector.h"
+#include "lift/normalize.h"
 #include "lift/tracking/person_skeleton.h"
 #include "lift/tracking/tracked_person.h"
 #include "src/joint_angles.h"
@@ -135,21 +137,13 @@ double DetectedShare(const TaggedVideo& video) {
   return wanted > 0 ? static_cast<double>(found) / wanted : 0.0;
 }
 
-}  // namespace
-
-BodyTags DressFor(const Skeleton& skeleton, const TrackExperimentOptions& options) {
-  return testing::DefaultTagPlacement(skeleton,
-                                      {.size_m = options.tag_size_m, .around = options.around});
-}
-
-BodyTags Misplaced(const BodyTags& worn, const TrackExperimentOptions& options) {
+BodyTags Misplaced(BodyTags tags, const TrackExperimentOptions& options) {
   std::mt19937_64 rng(options.seed);
   std::normal_distribution<double> normal;
   const auto draw = [&](double sigma) {
     return Eigen::Vector3d(sigma * normal(rng), sigma * normal(rng), sigma * normal(rng));
   };
-  BodyTags said = worn;
-  for (BodyTag& tag : said.tags) {
+  for (BodyTag& tag : tags.tags) {
     tag.on_bone->bone_from_tag.translation() += draw(options.misplaced_m);
     const Eigen::Vector3d turn = draw(options.misplaced_rad);
     tag.on_bone->bone_from_tag.linear() *=
@@ -157,7 +151,21 @@ BodyTags Misplaced(const BodyTags& worn, const TrackExperimentOptions& options) 
     tag.on_bone->sigma_m = options.misplaced_m;
     tag.on_bone->sigma_rad = options.misplaced_rad;
   }
-  return said;
+  return tags;
+}
+
+}  // namespace
+
+Dress DressFor(const Skeleton& skeleton, const TrackExperimentOptions& options) {
+  if (options.worn == TagsWorn::kPrinted) {
+    const BodyTags printed = DefaultBodyTags();
+    return {
+        testing::OnSurface(Misplaced(OnBones(printed, TrimToJoints(skeleton)), options), skeleton),
+        printed};
+  }
+  const BodyTags worn = testing::DefaultTagPlacement(
+      skeleton, {.size_m = options.tag_size_m, .around = options.worn == TagsWorn::kAround});
+  return {worn, Misplaced(worn, options)};
 }
 
 TaggedVideo RenderTagged(const Motion& motion, const BodyTags& worn,

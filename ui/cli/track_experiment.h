@@ -15,15 +15,22 @@
 
 namespace poselift::cli {
 
+// What a rendered person wears.
+enum class TagsWorn {
+  kFront,   // 13 tags
+  kAround,  // 36 tags on all sides
+  kPrinted  // the 16 of `tags print`, which say what joint is where, and no more
+};
+
 // Captured motions rendered with tags on the body, then detected and tracked like any video.
 struct TrackExperimentOptions {
   double distance_m = 3.0;
   double tag_size_m = 0.08;
-  bool around = false;  // 36 tags on all sides, not 13 in front
+  TagsWorn worn = TagsWorn::kFront;
   double exposure_s = 1.0 / 120.0;
   double noise_grey_levels = 3.0;
-  // How far off tags sit from where the tags file says, before it is fitted: standard
-  // deviations of each coordinate.
+  // How far off tags sit from where the tags file says (of the printed set: from where it
+  // means them), before it is fitted: standard deviations of each coordinate.
   double misplaced_m = 0.015, misplaced_rad = 0.1;
   double fov_deg = 60.0;  // that a camera is taken for when nobody calibrated it
   uint64_t seed = 1;
@@ -48,9 +55,11 @@ struct TrackErrors {
   double detected_share = 0.0;  // of tags that are turned by less than 60 degrees, not hidden
 };
 
-BodyTags DressFor(const Skeleton& skeleton, const TrackExperimentOptions& options);
-// The same as a tags file might say it before it is fitted.
-BodyTags Misplaced(const BodyTags& worn, const TrackExperimentOptions& options);
+// Tags as they sit on a person, and as the tags file says it before it is fitted.
+struct Dress {
+  BodyTags worn, said;
+};
+Dress DressFor(const Skeleton& skeleton, const TrackExperimentOptions& options);
 
 TaggedVideo RenderTagged(const Motion& motion, const BodyTags& worn,
                          const TrackExperimentOptions& options, const ProgressFn& progress);
