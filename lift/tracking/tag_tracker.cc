@@ -13,6 +13,7 @@
 #include "lift/ik/pose_problem.h"
 #include "lift/ik/rotation_derivative.h"
 #include "lift/temporal/pose_prediction.h"
+#include "lift/tracking/tag_observation.h"
 #include "src/input_error.h"
 
 namespace poselift {
@@ -25,8 +26,6 @@ constexpr double kShortestPause_s = 0.3, kLongestPause_s = 5.0;  // between such
 constexpr double kPull_per_rad = 0.5;  // to rest, in a second: of dofs that nothing shows
 constexpr double kLimitStiffness_per_rad = 10.0;  // as that of sequences
 constexpr double kOutlier = 7.0;                  // standard deviations of all corners together
-constexpr double kLeastFacing = 0.2;      // cosine: a tag that is seen more from the side is lost
-constexpr double kLeanUnknown_rad = 0.7;  // of a tag that may lean either way
 
 // The diagonal of a covariance by root, its small turn and the dofs, as PoseDifference.
 FeatureVector FeatureVariances(const Eigen::MatrixXd& covariance, const SkeletonPose& pose) {
@@ -66,14 +65,6 @@ double Misfit(const std::vector<TrackedTag>& tags, double loss) {
   return tags.empty() ? 0.0 : sum / static_cast<double>(tags.size());
 }
 
-int BoneOf(const Articulation& body, const BodyTag& tag) {
-  const auto bone = body.skeleton.FindBone(tag.on_bone->bone);
-  if (!bone)
-    throw InputError(fmt::format("tag {}: found the bone '{}', wanted one of the skeleton's",
-                                 tag.id, tag.on_bone->bone));
-  return *bone;
-}
-
 double WorstSigmas(const std::vector<TrackedTag>& tags) {
   double worst = 0.0;
   for (const TrackedTag& tag : tags) worst = std::max(worst, tag.sigmas);
@@ -83,14 +74,6 @@ double WorstSigmas(const std::vector<TrackedTag>& tags) {
 std::ptrdiff_t NumBelieved(const std::vector<TrackedTag>& tags) {
   return std::count_if(tags.begin(), tags.end(),
                        [](const TrackedTag& tag) { return tag.is_believed; });
-}
-
-int JointOf(const BodyTag& tag) {
-  const auto joint = FindJoint(tag.on_joint->joint);
-  if (!joint)
-    throw InputError(fmt::format("tag {}: found the joint '{}', wanted a name of a joint", tag.id,
-                                 tag.on_joint->joint));
-  return *joint;
 }
 
 }  // namespace
@@ -112,8 +95,7 @@ TagTracker::TagTracker(const Skeleton& skeleton, const BodyTags& tags, const Cam
                        std::shared_ptr<const MotionCodebook> codebook,
                        const TagTrackerOptions& options)
     : body_(skeleton),
-      camera_(camera),
-      view_{camera.fx_px, Eigen::Isometry3d(cam_from_world)},
+      worn_(skeleton, tags, camera, cam_from_world),
       lifter_(lifter),
       standard_(lifter.dictionary().skeleton),
       options_(options),
@@ -123,16 +105,10 @@ TagTracker::TagTracker(const Skeleton& skeleton, const BodyTags& tags, const Cam
     throw InputError(
         "found a dictionary and a motion model of different skeletons, wanted one skeleton: learn "
         "both from the same motions");
-  for (const BodyTag& tag : OnBones(tags, skeleton).tags) {
-    Worn worn{.tag = tag};
-    if (tag.on_bone) worn.bone = BoneOf(body_, tag);
-    if (tag.on_joint) worn.joint = JointOf(tag);
-    worn_.push_back(std::move(worn));
-  }
 }
 
 void TagTracker::Add(double time_s, const std::vector<TagSighting>& sightings) {
-  const std::vector<Seen> seen = Known(sightings);
+  const std::vector<SeenTag> seen = worn_.Known(sightings);
   const auto prediction = filter_.Next(time_s, !seen.empty());
   const double dt_s = time_s - std::exchange(last_s_, time_s);
   std::optional<Solution> solution;
@@ -149,7 +125,7 @@ void TagTracker::Add(double time_s, const std::vector<TagSighting>& sightings) {
 
 // Where a tag speaks against what was foretold, that may have been wrong, or the tag is: less
 // and less often.
-void TagTracker::TryAnew(double time_s, const std::vector<Seen>& seen,
+void TagTracker::TryAnew(double time_s, const std::vector<SeenTag>& seen,
                          std::optional<Solution>* solution) {
   if (time_s < next_try_s_) return;
   auto anew = SolveAnew(seen);
@@ -170,92 +146,30 @@ std::optional<TrackedFrame> TagTracker::Take() {
 }
 
 std::vector<TagDetection> TagTracker::Expected(double time_s) const {
-  std::vector<TagDetection> expected;
   const auto pose = filter_.Ahead(time_s);
-  if (!pose) return expected;
+  if (!pose) return {};
   BoneFrames frames;
   ForwardKinematics(body_.skeleton, *pose, &frames);
-  for (const Worn& worn : worn_) {
-    if (worn.bone < 0) continue;
-    const Eigen::Isometry3d cam_from_tag =
-        CamFromBone(frames, worn.bone) * worn.tag.on_bone->bone_from_tag;
-    const Eigen::Vector3d into_tag = cam_from_tag.linear().col(2);
-    if (into_tag.dot(cam_from_tag.translation().normalized()) < kLeastFacing) continue;
-    TagDetection tag{.id = worn.tag.id};
-    const Eigen::Matrix<double, 3, 4> corners_m = cam_from_tag * TagCorners_m(worn.tag.size_m);
-    for (int i = 0; i < 4; ++i) tag.corners_px.col(i) = camera_.Project(corners_m.col(i));
-    tag.centre_px = tag.corners_px.rowwise().mean();
-    const bool inside = tag.centre_px.x() >= 0.0 && tag.centre_px.x() < camera_.width_px &&
-                        tag.centre_px.y() >= 0.0 && tag.centre_px.y() < camera_.height_px;
-    if (tag.corners_px.allFinite() && inside) expected.push_back(tag);
-  }
-  return expected;
-}
-
-std::vector<TagTracker::Seen> TagTracker::Known(const std::vector<TagSighting>& sightings) const {
-  std::vector<Seen> known;
-  for (const TagSighting& sighting : sightings) {
-    const auto worn = std::find_if(worn_.begin(), worn_.end(), [&](const Worn& candidate) {
-      return candidate.tag.id == sighting.detection.id;
-    });
-    if (worn == worn_.end()) continue;
-    const Seen seen{&*worn, &sighting, CornersWithoutLens(camera_, sighting.detection.corners_px)};
-    if (seen.corners_px.allFinite()) known.push_back(seen);
-  }
-  return known;
+  return worn_.Project(frames);
 }
 
 // The ends of the bones that wear tags, lifted.
-std::vector<SkeletonPose> TagTracker::FirstPoses(const std::vector<Seen>& seen) const {
-  Observation observation;
-  const auto add = [&](int joint, const Eigen::Vector3d& x_in_cam_m, double sigma_m) {
-    observation.points.push_back({.name = std::string(Joints()[static_cast<size_t>(joint)].name),
-                                  .parts = {{joint, 1.0}},
-                                  .kind = ObservedPoint::Kind::k3D,
-                                  .x = x_in_cam_m,
-                                  .sigma = sigma_m});
-  };
-  int num_tags = 0;
-  for (const Seen& tag : seen) {
-    if (tag.sighting->poses.empty()) continue;
-    const TagPose& pose = tag.sighting->poses.front();
-    const double place_m2 = pose.covariance.bottomRightCorner<3, 3>().trace();
-    const double lean_rad2 = pose.covariance.topLeftCorner<3, 3>().trace() +
-                             (tag.sighting->is_ambiguous ? kLeanUnknown_rad * kLeanUnknown_rad : 0);
-    ++num_tags;
-    if (tag.worn->bone >= 0) {
-      const TagOnBone& mount = *tag.worn->tag.on_bone;
-      const Eigen::Isometry3d cam_from_bone = pose.cam_from_tag * mount.bone_from_tag.inverse();
-      const Bone& bone = body_.skeleton.bones[static_cast<size_t>(tag.worn->bone)];
-      const double rad2 = lean_rad2 + mount.sigma_rad * mount.sigma_rad;
-      const auto add_end = [&](int joint, const Eigen::Vector3d& x_in_bone_m) {
-        const double lever_m = (x_in_bone_m - mount.bone_from_tag.translation()).norm();
-        add(joint, cam_from_bone * x_in_bone_m,
-            std::sqrt(place_m2 + mount.sigma_m * mount.sigma_m + lever_m * lever_m * rad2));
-      };
-      add_end(tag.worn->bone, bone.tip_m);
-      if (bone.parent >= 0) add_end(bone.parent, Eigen::Vector3d::Zero());
-    } else {
-      const TagOnJoint& mount = *tag.worn->tag.on_joint;
-      const double lever_m2 = mount.joint_in_tag_m.squaredNorm();
-      add(tag.worn->joint, pose.cam_from_tag * mount.joint_in_tag_m,
-          std::sqrt(place_m2 + mount.sigma_m * mount.sigma_m + lever_m2 * lean_rad2));
-    }
-  }
-  if (num_tags < options_.least_tags) return {};
+std::vector<SkeletonPose> TagTracker::FirstPoses(const std::vector<SeenTag>& seen) const {
+  const auto has_pose = [](const SeenTag& tag) { return !tag.sighting->poses.empty(); };
+  if (std::count_if(seen.begin(), seen.end(), has_pose) < options_.least_tags) return {};
+  const Observation observation = ObserveTags(seen, body_.skeleton);
+  const Eigen::Isometry3d world_from_cam = worn_.view().cam_from_world.inverse();
   std::vector<SkeletonPose> poses;
   for (const LiftedPose& lifted : lifter_.LiftPhoto(observation).poses) {
     SkeletonPose pose = lifted.pose;
-    pose.root_in_world_m = MeanShift_m(observation, lifted.joints_in_cam_m);
-    const Eigen::Isometry3d world_from_cam = view_.cam_from_world.inverse();
-    pose.root_in_world_m = world_from_cam * pose.root_in_world_m;
+    pose.root_in_world_m = world_from_cam * MeanShift_m(observation, lifted.joints_in_cam_m);
     pose.world_from_root = Eigen::Quaterniond(world_from_cam.linear()) * pose.world_from_root;
     poses.push_back(std::move(pose));
   }
   return poses;
 }
 
-std::optional<TagTracker::Solution> TagTracker::SolveOn(const std::vector<Seen>& seen,
+std::optional<TagTracker::Solution> TagTracker::SolveOn(const std::vector<SeenTag>& seen,
                                                         const MotionFilter::Prediction& prediction,
                                                         double dt_s) const {
   const double share = std::sqrt(std::min(1.0, dt_s));
@@ -269,7 +183,7 @@ std::optional<TagTracker::Solution> TagTracker::SolveOn(const std::vector<Seen>&
   return other && (!solution || other->cost < solution->cost) ? other : solution;
 }
 
-std::optional<TagTracker::Solution> TagTracker::SolveAnew(const std::vector<Seen>& seen) const {
+std::optional<TagTracker::Solution> TagTracker::SolveAnew(const std::vector<SeenTag>& seen) const {
   std::optional<Solution> best;
   for (const SkeletonPose& start : FirstPoses(seen))
     if (auto solution = Solve(seen, start, std::nullopt, 1.0, options_.loss))
@@ -277,25 +191,22 @@ std::optional<TagTracker::Solution> TagTracker::SolveAnew(const std::vector<Seen
   return best;
 }
 
-Eigen::Isometry3d TagTracker::CamFromBone(const BoneFrames& frames, int bone) const {
-  return view_.cam_from_world * WorldFromBone(frames, bone);
-}
-
-TagInPicture TagTracker::InPicture(const Seen& tag, const BoneFrames& frames) const {
+TagInPicture TagTracker::InPicture(const SeenTag& tag, const BoneFrames& frames) const {
   const TagOnBone& mount = *tag.worn->tag.on_bone;
-  const Eigen::Isometry3d cam_from_tag = CamFromBone(frames, tag.worn->bone) * mount.bone_from_tag;
+  const Eigen::Isometry3d cam_from_tag =
+      worn_.CamFromBone(frames, tag.worn->bone) * mount.bone_from_tag;
   const double size_m = tag.worn->tag.size_m;
   return {tag.worn->bone, mount.bone_from_tag, size_m, tag.corners_px,
-          TagWhitening(view_, cam_from_tag, size_m,
+          TagWhitening(worn_.view(), cam_from_tag, size_m,
                        CornerSigma_px(tag.sighting->detection, options_.corner_sigma_px),
                        mount.sigma_m, mount.sigma_rad)};
 }
 
 // The joint as the tag has it; of the two ways it may lean, the one that is nearer.
-PointInSpace TagTracker::InSpace(const Seen& tag, const BoneFrames& frames) const {
+PointInSpace TagTracker::InSpace(const SeenTag& tag, const BoneFrames& frames) const {
   const TagOnJoint& mount = *tag.worn->tag.on_joint;
   const Bone& bone = body_.skeleton.bones[static_cast<size_t>(tag.worn->joint)];
-  const Eigen::Vector3d expected_m = CamFromBone(frames, tag.worn->joint) * bone.tip_m;
+  const Eigen::Vector3d expected_m = worn_.CamFromBone(frames, tag.worn->joint) * bone.tip_m;
   const auto off = [&](const TagPose& pose) {
     return (pose.cam_from_tag * mount.joint_in_tag_m - expected_m).norm();
   };
@@ -306,24 +217,24 @@ PointInSpace TagTracker::InSpace(const Seen& tag, const BoneFrames& frames) cons
   by_pose << -Cross(pose.cam_from_tag.linear() * mount.joint_in_tag_m), Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d in_cam = by_pose * pose.covariance * by_pose.transpose() +
                                  mount.sigma_m * mount.sigma_m * Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d world_from_cam = view_.cam_from_world.linear().transpose();
+  const Eigen::Matrix3d world_from_cam = worn_.view().cam_from_world.linear().transpose();
   return {tag.worn->joint, bone.tip_m,
-          view_.cam_from_world.inverse() * (pose.cam_from_tag * mount.joint_in_tag_m),
+          worn_.view().cam_from_world.inverse() * (pose.cam_from_tag * mount.joint_in_tag_m),
           InverseRoot(in_cam) * world_from_cam.transpose()};
 }
 
 // How far the tags are from where the pose has them.
-std::vector<TrackedTag> TagTracker::Judge(const std::vector<Seen>& seen,
+std::vector<TrackedTag> TagTracker::Judge(const std::vector<SeenTag>& seen,
                                           const SkeletonPose& pose) const {
   BoneFrames frames;
   ForwardKinematics(body_.skeleton, pose, &frames);
   std::vector<TrackedTag> tags;
-  for (const Seen& tag : seen) {
+  for (const SeenTag& tag : seen) {
     TrackedTag tracked{.id = tag.worn->tag.id, .is_ambiguous = tag.sighting->is_ambiguous};
     if (tag.worn->bone >= 0) {
       const TagInPicture picture = InPicture(tag, frames);
       const TagCorners off_px =
-          ProjectTag(view_, CamFromBone(frames, picture.bone) * picture.bone_from_tag,
+          ProjectTag(worn_.view(), worn_.CamFromBone(frames, picture.bone) * picture.bone_from_tag,
                      picture.size_m) -
           picture.corners_px;
       tracked.error_px = off_px.norm() / 2.0;
@@ -331,13 +242,13 @@ std::vector<TrackedTag> TagTracker::Judge(const std::vector<Seen>& seen,
           (picture.whitening * Eigen::Map<const Eigen::Matrix<double, 8, 1>>(off_px.data())).norm();
     } else if (!tag.sighting->poses.empty()) {
       const PointInSpace point = InSpace(tag, frames);
-      const Eigen::Vector3d x_in_cam_m = CamFromBone(frames, point.bone) * point.x_in_bone_m;
-      const Eigen::Vector3d seen_in_cam_m = view_.cam_from_world * point.x_in_world_m;
+      const Eigen::Vector3d x_in_cam_m = worn_.CamFromBone(frames, point.bone) * point.x_in_bone_m;
+      const Eigen::Vector3d seen_in_cam_m = worn_.view().cam_from_world * point.x_in_world_m;
       tracked.error_px =
-          view_.focal_px * (x_in_cam_m.hnormalized() - seen_in_cam_m.hnormalized()).norm();
-      tracked.sigmas =
-          (point.whitening * (view_.cam_from_world.inverse() * x_in_cam_m - point.x_in_world_m))
-              .norm();
+          worn_.view().focal_px * (x_in_cam_m.hnormalized() - seen_in_cam_m.hnormalized()).norm();
+      tracked.sigmas = (point.whitening *
+                        (worn_.view().cam_from_world.inverse() * x_in_cam_m - point.x_in_world_m))
+                           .norm();
     }
     tracked.is_believed = tracked.sigmas < kOutlier;
     tags.push_back(tracked);
@@ -345,20 +256,20 @@ std::vector<TrackedTag> TagTracker::Judge(const std::vector<Seen>& seen,
   return tags;
 }
 
-void TagTracker::AddTags(const std::vector<Seen>& seen, const SkeletonPose& start, double loss,
+void TagTracker::AddTags(const std::vector<SeenTag>& seen, const SkeletonPose& start, double loss,
                          PoseProblem* problem) const {
   BoneFrames frames;
   ForwardKinematics(body_.skeleton, start, &frames);
-  for (const Seen& tag : seen) {
+  for (const SeenTag& tag : seen) {
     if (tag.worn->bone >= 0)
-      problem->AddPoseTerm(MakeTagCost(body_, view_, InPicture(tag, frames)), loss);
+      problem->AddPoseTerm(MakeTagCost(body_, worn_.view(), InPicture(tag, frames)), loss);
     else if (!tag.sighting->poses.empty())
       problem->AddPoseTerm(MakePointCost(body_, InSpace(tag, frames)), loss);
   }
 }
 
 std::optional<TagTracker::Solution> TagTracker::Solve(
-    const std::vector<Seen>& seen, const SkeletonPose& start,
+    const std::vector<SeenTag>& seen, const SkeletonPose& start,
     const std::optional<MotionFilter::Prediction>& prediction, double share, double loss) const {
   const DofLimits limits = HingeLimits(body_);
   PoseProblem problem(body_, start,

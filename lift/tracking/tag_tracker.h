@@ -11,7 +11,7 @@
 
 #include "lift/lift_photo.h"
 #include "lift/temporal/motion_filter.h"
-#include "lift/tracking/tag_cost.h"
+#include "lift/tracking/worn_tags.h"
 #include "src/body_tags.h"
 #include "src/camera.h"
 #include "src/tag_detection.h"
@@ -75,16 +75,6 @@ class TagTracker {
   std::vector<TagDetection> Expected(double time_s) const;
 
  private:
-  struct Worn {
-    BodyTag tag;
-    int bone = -1;   // on_bone
-    int joint = -1;  // on_joint
-  };
-  struct Seen {
-    const Worn* worn;
-    const TagSighting* sighting;
-    TagCorners corners_px;  // without distortion, from the principal point
-  };
   struct Solution {
     SkeletonPose pose;
     FeatureVector variances;
@@ -93,29 +83,25 @@ class TagTracker {
     double misfit = 0.0;  // of the tags
   };
 
-  std::vector<Seen> Known(const std::vector<TagSighting>& seen) const;
-  std::vector<SkeletonPose> FirstPoses(const std::vector<Seen>& seen) const;
-  std::optional<Solution> Solve(const std::vector<Seen>& seen, const SkeletonPose& start,
+  std::vector<SkeletonPose> FirstPoses(const std::vector<SeenTag>& seen) const;
+  std::optional<Solution> Solve(const std::vector<SeenTag>& seen, const SkeletonPose& start,
                                 const std::optional<MotionFilter::Prediction>& prediction,
                                 double share, double loss) const;
-  std::optional<Solution> SolveOn(const std::vector<Seen>& seen,
+  std::optional<Solution> SolveOn(const std::vector<SeenTag>& seen,
                                   const MotionFilter::Prediction& prediction, double dt_s) const;
-  void TryAnew(double time_s, const std::vector<Seen>& seen, std::optional<Solution>* solution);
-  std::optional<Solution> SolveAnew(const std::vector<Seen>& seen) const;
-  void AddTags(const std::vector<Seen>& seen, const SkeletonPose& start, double loss,
+  void TryAnew(double time_s, const std::vector<SeenTag>& seen, std::optional<Solution>* solution);
+  std::optional<Solution> SolveAnew(const std::vector<SeenTag>& seen) const;
+  void AddTags(const std::vector<SeenTag>& seen, const SkeletonPose& start, double loss,
                PoseProblem* problem) const;
-  std::vector<TrackedTag> Judge(const std::vector<Seen>& seen, const SkeletonPose& pose) const;
-  TagInPicture InPicture(const Seen& tag, const BoneFrames& frames) const;
-  PointInSpace InSpace(const Seen& tag, const BoneFrames& frames) const;
-  Eigen::Isometry3d CamFromBone(const BoneFrames& frames, int bone) const;
+  std::vector<TrackedTag> Judge(const std::vector<SeenTag>& seen, const SkeletonPose& pose) const;
+  TagInPicture InPicture(const SeenTag& tag, const BoneFrames& frames) const;
+  PointInSpace InSpace(const SeenTag& tag, const BoneFrames& frames) const;
 
   Articulation body_;
-  Camera camera_;
-  TagView view_;
+  WornTags worn_;
   const PhotoLifter& lifter_;
   Articulation standard_;  // the skeleton that poses were learned on
   TagTrackerOptions options_;
-  std::vector<Worn> worn_;
   MotionFilter filter_;
   double last_s_ = 0.0;
   // When a pose found anew is next tried, and how long the pause was before.
