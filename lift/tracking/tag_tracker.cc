@@ -23,6 +23,7 @@ constexpr int kMaxIterations = 30;
 constexpr double kFunctionTolerance = 1e-4;
 constexpr double kMuchBetter = 0.7;  // misfit of a pose found anew, to take it
 constexpr double kShortestPause_s = 0.3, kLongestPause_s = 5.0;  // between such tries
+constexpr double kForget_s = 1.0;                                // a doubt
 constexpr double kPull_per_rad = 0.5;  // to rest, in a second: of dofs that nothing shows
 constexpr double kLimitStiffness_per_rad = 10.0;  // as that of sequences
 constexpr double kOutlier = 7.0;                  // standard deviations of all corners together
@@ -63,12 +64,6 @@ double Misfit(const std::vector<TrackedTag>& tags, double loss) {
   for (const TrackedTag& tag : tags)
     sum += loss * loss * std::log1p(tag.sigmas * tag.sigmas / (loss * loss));
   return tags.empty() ? 0.0 : sum / static_cast<double>(tags.size());
-}
-
-double WorstSigmas(const std::vector<TrackedTag>& tags) {
-  double worst = 0.0;
-  for (const TrackedTag& tag : tags) worst = std::max(worst, tag.sigmas);
-  return worst;
 }
 
 std::ptrdiff_t NumBelieved(const std::vector<TrackedTag>& tags) {
@@ -114,13 +109,30 @@ void TagTracker::Add(double time_s, const std::vector<TagSighting>& sightings) {
   std::optional<Solution> solution;
   if (!seen.empty() && prediction) {
     solution = SolveOn(seen, *prediction, dt_s);
-    if (!solution || WorstSigmas(solution->tags) > kOutlier) TryAnew(time_s, seen, &solution);
+    if (NoteDoubts(time_s, solution ? solution->tags : std::vector<TrackedTag>()))
+      TryAnew(time_s, seen, &solution);
   } else if (!seen.empty()) {
     solution = SolveAnew(seen);
   }
   waiting_.push_back(solution ? std::move(solution->tags) : std::vector<TrackedTag>());
   if (!solution) return;
   filter_.Measure(solution->pose, solution->variances);
+}
+
+// A tag that was not doubted of late is news: worth a look at once.
+bool TagTracker::NoteDoubts(double time_s, const std::vector<TrackedTag>& tags) {
+  bool has_doubts = tags.empty();
+  for (const TrackedTag& tag : tags) {
+    if (tag.is_believed) continue;
+    has_doubts = true;
+    const auto [doubt, is_first] = doubted_s_.try_emplace(tag.id, time_s);
+    if (is_first || time_s - doubt->second > kForget_s) {
+      next_try_s_ = time_s;
+      pause_s_ = kShortestPause_s / 2.0;
+    }
+    doubt->second = time_s;
+  }
+  return has_doubts;
 }
 
 // Where a tag speaks against what was foretold, that may have been wrong, or the tag is: less
@@ -256,8 +268,10 @@ std::vector<TrackedTag> TagTracker::Judge(const std::vector<SeenTag>& seen,
   return tags;
 }
 
-void TagTracker::AddTags(const std::vector<SeenTag>& seen, const SkeletonPose& start, double loss,
-                         PoseProblem* problem) const {
+// Tags and what was foretold.
+void TagTracker::AddTerms(const std::vector<SeenTag>& seen, const SkeletonPose& start,
+                          const std::optional<MotionFilter::Prediction>& prediction, double loss,
+                          PoseProblem* problem) const {
   BoneFrames frames;
   ForwardKinematics(body_.skeleton, start, &frames);
   for (const SeenTag& tag : seen) {
@@ -266,28 +280,37 @@ void TagTracker::AddTags(const std::vector<SeenTag>& seen, const SkeletonPose& s
     else if (!tag.sighting->poses.empty())
       problem->AddPoseTerm(MakePointCost(body_, InSpace(tag, frames)), loss);
   }
+  if (!prediction) return;
+  const FeatureVector whitening = prediction->variances.cwiseSqrt().cwiseInverse();
+  problem->AddPoseTerm(MakePredictionCost({prediction->pose, whitening.asDiagonal()}, 1.0));
 }
 
 std::optional<TagTracker::Solution> TagTracker::Solve(
     const std::vector<SeenTag>& seen, const SkeletonPose& start,
     const std::optional<MotionFilter::Prediction>& prediction, double share, double loss) const {
   const DofLimits limits = HingeLimits(body_);
-  PoseProblem problem(body_, start,
-                      {limits, limits.Clamp(Eigen::VectorXd::Zero(body_.num_dofs)),
-                       share * kPull_per_rad, kLimitStiffness_per_rad});
-  AddTags(seen, start, loss, &problem);
-  if (prediction) {
-    const FeatureVector whitening = prediction->variances.cwiseSqrt().cwiseInverse();
-    problem.AddPoseTerm(MakePredictionCost({prediction->pose, whitening.asDiagonal()}, 1.0));
-  }
+  DofSprings springs{limits, limits.Clamp(Eigen::VectorXd::Zero(body_.num_dofs)),
+                     share * kPull_per_rad, kLimitStiffness_per_rad};
+  PoseProblem problem(body_, start, springs);
+  AddTerms(seen, start, prediction, loss, &problem);
   const PosePrior& prior = lifter_.dictionary().prior;
   const double prior_weight = share * options_.prior_weight;
   const PosePrior weighted{prior.mean_m, prior_weight * prior.whitening};
   if (!prior.Empty() && prior_weight > 0.0) problem.AddDofsTerm(MakePriorCost(standard_, weighted));
   if (!IsUsable(problem.Solve(kMaxIterations, kFunctionTolerance).status)) return std::nullopt;
-  const Eigen::MatrixXd covariance = problem.Covariance();
-  if (covariance.size() == 0) return std::nullopt;
   const SkeletonPose& pose = problem.pose();
+  Eigen::MatrixXd covariance;
+  if (prediction) {
+    // How common a pose is, said again in each frame, is no measurement: of a limb that
+    // nothing shows the filter would be surer and surer.
+    springs.pull = 0.0;
+    PoseProblem measured(body_, pose, springs);
+    AddTerms(seen, pose, prediction, loss, &measured);
+    covariance = measured.Covariance();
+  } else {
+    covariance = problem.Covariance();
+  }
+  if (covariance.size() == 0) return std::nullopt;
   Solution solution{pose, FeatureVariances(covariance, pose), problem.Cost()};
   solution.tags = Judge(seen, pose);
   solution.misfit = Misfit(solution.tags, options_.loss);

@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -89,10 +90,12 @@ class TagTracker {
                                 double share, double loss) const;
   std::optional<Solution> SolveOn(const std::vector<SeenTag>& seen,
                                   const MotionFilter::Prediction& prediction, double dt_s) const;
+  bool NoteDoubts(double time_s, const std::vector<TrackedTag>& tags);
   void TryAnew(double time_s, const std::vector<SeenTag>& seen, std::optional<Solution>* solution);
   std::optional<Solution> SolveAnew(const std::vector<SeenTag>& seen) const;
-  void AddTags(const std::vector<SeenTag>& seen, const SkeletonPose& start, double loss,
-               PoseProblem* problem) const;
+  void AddTerms(const std::vector<SeenTag>& seen, const SkeletonPose& start,
+                const std::optional<MotionFilter::Prediction>& prediction, double loss,
+                PoseProblem* problem) const;
   std::vector<TrackedTag> Judge(const std::vector<SeenTag>& seen, const SkeletonPose& pose) const;
   TagInPicture InPicture(const SeenTag& tag, const BoneFrames& frames) const;
   PointInSpace InSpace(const SeenTag& tag, const BoneFrames& frames) const;
@@ -104,6 +107,7 @@ class TagTracker {
   TagTrackerOptions options_;
   MotionFilter filter_;
   double last_s_ = 0.0;
+  std::map<int, double> doubted_s_;  // when tags were last not believed, by their ids
   // When a pose found anew is next tried, and how long the pause was before.
   double next_try_s_ = -std::numeric_limits<double>::infinity(), pause_s_ = 0.15;
   std::deque<std::vector<TrackedTag>> waiting_;

@@ -8,6 +8,7 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -142,14 +143,18 @@ std::vector<Row> RunTest(const Test& test, const PhotoLifter& lifter,
   return rows;
 }
 
+std::string Degrees(double rms_deg) {
+  return std::isnan(rms_deg) ? "-" : fmt::format("{:.1f}", rms_deg);
+}
+
 void Print(const std::vector<Row>& rows) {
   fmt::print("{:30} {:8} {:6} {:>10} {:>8} {:>10} {:>10} {:>6} {:>8} {:>9}\n", "method", "action",
              "trial", "visible mm", "all mm", "elbows deg", "knees deg", "flips", "unknown",
              "detected");
   for (const Row& row : rows)
-    fmt::print("{:30} {:8} {:6} {:10.1f} {:8.1f} {:10.1f} {:10.1f} {:6} {:8} {:7.1f} %\n",
-               row.method, row.action, row.trial, row.errors.visible_mm, row.errors.all_mm,
-               row.errors.elbows_deg, row.errors.knees_deg, row.errors.num_flips,
+    fmt::print("{:30} {:8} {:6} {:10.1f} {:8.1f} {:>10} {:>10} {:6} {:8} {:7.1f} %\n", row.method,
+               row.action, row.trial, row.errors.visible_mm, row.errors.all_mm,
+               Degrees(row.errors.elbows_deg), Degrees(row.errors.knees_deg), row.errors.num_flips,
                row.errors.num_unknown, 100.0 * row.errors.detected_share);
 }
 

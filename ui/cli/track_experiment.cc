@@ -65,7 +65,7 @@ struct HingeSum {
     deg2 += off_deg * off_deg;
     ++count;
   }
-  double Rms_deg() const { return count > 0 ? std::sqrt(deg2 / count) : 0.0; }
+  double Rms_deg() const { return count > 0 ? std::sqrt(deg2 / count) : std::nan(""); }
 };
 
 // Sums over frames, then TrackErrors.

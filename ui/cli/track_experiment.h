@@ -50,7 +50,7 @@ struct TrackErrors {
   double visible_mm = 0.0;  // mean over the joints at the ends of bones whose tags are seen
   double all_mm = 0.0;      // over all 23, relative to the pelvis both
   double elbows_deg = 0.0,
-         knees_deg = 0.0;       // RMS of flexion, where the tags of both bones are seen
+         knees_deg = 0.0;       // RMS of flexion, where tags of both bones are seen; NaN: never
   int num_flips = 0;            // frames in which a seen knee or elbow is 15 cm off or more
   double detected_share = 0.0;  // of tags that are turned by less than 60 degrees, not hidden
 };
