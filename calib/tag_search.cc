@@ -152,11 +152,11 @@ std::vector<TagDetection> TagSearch::DetectIn(const cv::Mat& grey,
         found_by[worker].push_back(tag);
       }
   };
-  std::vector<std::thread> workers;
+  std::vector<std::jthread> workers;  // joined, whatever is thrown
   for (size_t w = 1; w < std::min(in_regions_.size(), regions.size()); ++w)
     workers.emplace_back(detect_every, w);
   detect_every(0);
-  for (std::thread& worker : workers) worker.join();
+  workers.clear();
   std::vector<TagDetection> found;
   for (const auto& some : found_by) found.insert(found.end(), some.begin(), some.end());
   std::sort(found.begin(), found.end(), IsBetter);

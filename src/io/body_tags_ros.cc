@@ -125,8 +125,8 @@ class Reader {
     if (!(std::abs(turn.norm() - 1.0) < kUnitTolerance))
       throw Error(entry, fmt::format("qw, qx, qy, qz: wanted length 1, found {:.3g}", turn.norm()));
     Eigen::Isometry3d bundle_from_tag = Eigen::Isometry3d::Identity();
-    bundle_from_tag.translation() << Number(entry, "x", 0.0), Number(entry, "y", 0.0),
-        Number(entry, "z", 0.0);
+    bundle_from_tag.translation() =
+        Eigen::Vector3d(Number(entry, "x", 0.0), Number(entry, "y", 0.0), Number(entry, "z", 0.0));
     const Eigen::DiagonalMatrix<double, 3> theirs_from_ours(1.0, -1.0, -1.0);
     bundle_from_tag.linear() = turn.normalized().toRotationMatrix() * theirs_from_ours;
     return bundle_from_tag;

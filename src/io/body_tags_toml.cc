@@ -3,7 +3,6 @@
 #include "src/io/body_tags_toml.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <charconv>
@@ -15,6 +14,7 @@
 #include "src/io/atomic_file.h"
 #include "src/io/body_tags_formats.h"
 #include "src/io/text_scanner.h"
+#include "src/io/toml_file.h"
 #include "src/joints.h"
 #include "src/nearest_names.h"
 #include "src/units.h"
@@ -311,13 +311,7 @@ std::string WantedPerhaps(std::string_view name, const std::vector<std::string>&
 }
 
 BodyTags ReadBodyTagsToml(const std::filesystem::path& path) {
-  toml::table root;
-  try {
-    root = toml::parse(ReadTextFile(path), path.string());
-  } catch (const toml::parse_error& error) {
-    throw InputError(path.string(), static_cast<int>(error.source().begin.line),
-                     fmt::format("{}, wanted TOML", error.description()));
-  }
+  const toml::table root = ReadToml(path);
   const Table file(root, path.string());
   file.CheckKeys({"family", "size_mm", "tag", "bone_lengths_mm"});
   BodyTags tags;

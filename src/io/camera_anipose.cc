@@ -2,12 +2,12 @@
 // Copyright (c) 2026 the poselift authors
 #include <fmt/format.h>
 
-#include <toml++/toml.h>
 #include <cmath>
 
 #include "src/input_error.h"
 #include "src/io/camera_formats.h"
 #include "src/io/text_scanner.h"
+#include "src/io/toml_file.h"
 
 namespace poselift {
 namespace {
@@ -92,19 +92,10 @@ Camera CameraOf(const Table& table) {
   return camera;
 }
 
-toml::table Parsed(const std::filesystem::path& path) {
-  try {
-    return toml::parse(ReadTextFile(path), path.string());
-  } catch (const toml::parse_error& error) {
-    throw InputError(path, static_cast<int>(error.source().begin.line),
-                     fmt::format("found no TOML: {}", error.description()));
-  }
-}
-
 }  // namespace
 
 CameraList ReadAniposeCameras(const std::filesystem::path& path, const std::string& wanted) {
-  const toml::table root = Parsed(path);
+  const toml::table root = ReadToml(path);
   // toml++ sorts its keys; the file's order is that of the lines.
   std::vector<Table> tables;
   for (const auto& [key, node] : root) {

@@ -123,12 +123,13 @@ std::optional<double> VideoFile::Skip_s() {
   if (!grabbed_) return std::nullopt;
   double time_s = time_s_;
   ++index_;
-  if (!Advance()) {
+  const bool is_last = !Advance();
+  // Of a first frame at 0 OpenCV gives the decoding time, which may lie anywhere.
+  if (index_ == 1 && (is_last || time_s < 0.0 || time_s >= time_s_)) time_s = 0.0;
+  if (is_last) {
     CheckEnd();
     return time_s;
   }
-  // Of a first frame at 0 OpenCV gives the decoding time, which may lie anywhere.
-  if (index_ == 1 && (time_s < 0.0 || time_s >= time_s_)) time_s = 0.0;
   if (time_s >= time_s_)
     throw InputError(path_, fmt::format("found frame {} at {:.6f} s behind one at {:.6f} s, wanted "
                                         "times that grow; write the file anew with its times set",

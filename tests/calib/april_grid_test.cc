@@ -17,7 +17,6 @@
 #include "calib/camera_refinement.h"
 #include "src/input_error.h"
 #include "tests/support/board_picture.h"
-#include "tests/support/mutation.h"
 #include "tests/support/planted_board_views.h"
 #include "tests/support/support.h"
 
@@ -180,17 +179,6 @@ TEST(AprilGridYaml, FlawsAreRefusedWithTheirLine) {
   EXPECT_THAT(Complaint("0.088", "88"), HasSubstr("found the tag size 88 m"));
   EXPECT_THAT(Complaint("0.3 ", "0.3\ntagFamily: tag36h12"), HasSubstr("grid.yaml:6: tagFamily"));
   EXPECT_THAT(Complaint("tagRows: 5", "tagRows: [5"), HasSubstr("found no YAML"));
-}
-
-TEST(AprilGridYaml, DamagedIsReadOrRefused) {
-  auto rng = testing::TestRng();
-  for (const std::string& damaged : testing::DamagedCopies(kTarget, 300, &rng)) {
-    try {
-      ASSERT_EQ(ReadAprilGridYaml(WriteScratch("d.yaml", damaged)).Validate(), "");
-    } catch (const InputError& error) {
-      ASSERT_THAT(error.what(), HasSubstr("d.yaml"));
-    }
-  }
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ class LiftSequenceTest : public ::testing::Test {
            double turn_rad = 0.0) {
     const Skeleton body = WithProportions(walk_.skeleton, log_ratios);
     auto rng = testing::TestRng();
-    std::normal_distribution<double> noise(0.0, noise_px);
+    std::normal_distribution<double> normal;
     for (int t = 0; t < num_frames; ++t) {
       const Eigen::Matrix3d cam_from_world = CamFromBody({0.0, 1.2 + t * turn_rad, 0.0});
       const SkeletonPose& pose = walk_.frames[static_cast<size_t>(40 + 2 * t)];
@@ -56,7 +56,8 @@ class LiftSequenceTest : public ::testing::Test {
       for (const Landmark& landmark : FindLayout("body15")->landmarks) {
         const Eigen::Vector3d x_in_cam_m = SumOfJoints(landmark.parts, truth_.back());
         ObservedPoint point{std::string(landmark.name), landmark.parts};
-        point.x << kScale_px_per_m * x_in_cam_m.head<2>() + Eigen::Vector2d(noise(rng), noise(rng)),
+        point.x << kScale_px_per_m * x_in_cam_m.head<2>() +
+                       noise_px * Eigen::Vector2d(normal(rng), normal(rng)),
             0.0;
         point.sigma = 4.0;
         frame.points.push_back(point);

@@ -357,25 +357,5 @@ TEST(OpenPoseLabels, RefuseRelativeCoordinatesAndOtherModels) {
   EXPECT_THAT(Complaint(R"({"people": [{}]})"), HasSubstr("people[0]: found no"));
 }
 
-TEST(Labels, DamagedFilesAreReadOrRefused) {
-  const std::vector<std::string> good = {
-      kNative, CocoAnnotations(Numbers(17, "10,20,2")),
-      R"([{"image_id": "b.jpg", "score": 2.9, "keypoints": )" + Numbers(17, "3,4,0.5") + "}]",
-      OpenPose("pose_keypoints_2d", Numbers(25, "50,60,0.7"))};
-  auto rng = testing::TestRng();
-  for (const std::string& text : good)
-    for (const std::string& damaged : testing::DamagedCopies(text, 300, &rng)) {
-      try {
-        for (const FrameLabels& frame : Read(damaged).frames)
-          for (const PersonLabels& person : frame.people)
-            for (const LandmarkLabel& landmark : person.landmarks)
-              ASSERT_TRUE(landmark.x_px.cwiseAbs().maxCoeff() <= 1e6);
-      } catch (const InputError& error) {
-        ASSERT_THAT(error.what(), HasSubstr("labels.json"));
-        ASSERT_LT(std::string(error.what()).size(), 600u);
-      }
-    }
-}
-
 }  // namespace
 }  // namespace poselift

@@ -203,20 +203,6 @@ TEST(PosesJson, RefusesWhatDoesNotFit) {
   EXPECT_THAT(complaint("[17, ", "[-17, "), HasSubstr("found -17, wanted a whole number"));
 }
 
-TEST(PosesJson, DamagedIsReadOrRefused) {
-  auto rng = testing::TestRng();
-  Poses poses = MadeUpPoses();
-  poses.frames.erase(poses.frames.begin() + 1);
-  const std::string good = PosesJson(poses);
-  for (const std::string& damaged : testing::DamagedCopies(good, 300, &rng)) {
-    try {
-      ReadPosesJson(WriteScratch("damaged.json", damaged));
-    } catch (const InputError& error) {
-      ASSERT_THAT(error.what(), HasSubstr("damaged.json"));
-    }
-  }
-}
-
 TEST(AnglesCsv, FollowsTheFirstPersonAndLeavesTheUnknownEmpty) {
   Poses poses = MadeUpPoses();
   poses.frames[2].people.push_back(MadeUpPerson());

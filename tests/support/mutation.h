@@ -9,9 +9,9 @@
 
 namespace poselift::testing {
 
-// What can happen to a text file: cut off after every byte, and `count` random
-// copies with bits flipped, bytes removed, doubled or replaced by characters
-// that mean something in JSON, YAML and the like.
+// What can happen to a file: cut off after every byte (of more than `count` bytes, at about as
+// many places), and `count` random copies with bits flipped, bytes removed, doubled, taken from
+// elsewhere or replaced by words that mean something in JSON, YAML and the like.
 std::vector<std::string> DamagedCopies(const std::string& text, int count, std::mt19937_64* rng);
 
 // The bytes of a file; fails the running test when it cannot be read.

@@ -35,7 +35,7 @@ Eigen::Isometry3d RandomPose(const CalibrationBoard& board, const Camera& camera
 
 BoardView See(const CalibrationBoard& board, const Camera& camera, const Eigen::Isometry3d& pose,
               double noise_px, std::mt19937_64* rng) {
-  std::normal_distribution<double> noise(0.0, noise_px);
+  std::normal_distribution<double> normal;
   BoardView view;
   view.corners_px.resize(2, board.num_corners());
   for (int id = 0; id < board.num_corners(); ++id) {
@@ -45,8 +45,9 @@ BoardView See(const CalibrationBoard& board, const Camera& camera, const Eigen::
     if (!(seen_px.x() > 0 && seen_px.y() > 0 && seen_px.x() < camera.width_px - 1 &&
           seen_px.y() < camera.height_px - 1))
       continue;
-    view.corners_px.col(static_cast<Eigen::Index>(view.ids.size())) << seen_px.x() + noise(*rng),
-        seen_px.y() + noise(*rng);
+    view.corners_px.col(static_cast<Eigen::Index>(view.ids.size()))
+        << seen_px.x() + noise_px * normal(*rng),
+        seen_px.y() + noise_px * normal(*rng);
     view.ids.push_back(id);
   }
   view.corners_px.conservativeResize(2, static_cast<Eigen::Index>(view.ids.size()));

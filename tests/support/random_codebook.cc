@@ -6,12 +6,10 @@
 
 #include "tests/support/planted_pose.h"
 #include "tests/support/random_dictionary.h"
-#include "tests/support/support.h"
 
 namespace poselift::testing {
 
-MotionCodebook RandomCodebook(int num_segments) {
-  auto rng = TestRng();
+MotionCodebook RandomCodebook(int num_segments, std::mt19937_64 rng) {
   MotionCodebook codebook;
   codebook.skeleton = SmallSkeleton();
   codebook.segments = RandomMatrix(kSegmentRows, num_segments, &rng).cast<float>();

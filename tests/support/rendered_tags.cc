@@ -76,11 +76,11 @@ void DrawTags(const TagFamily& family, const std::vector<PlacedTag>& tags, cv::M
 }
 
 void AddNoise(double sigma, std::mt19937_64* rng, cv::Mat* grey) {
-  std::normal_distribution<double> noise(0.0, sigma);
+  std::normal_distribution<double> normal;
   for (int y = 0; y < grey->rows; ++y)
     for (int x = 0; x < grey->cols; ++x) {
       uchar& value = grey->at<uchar>(y, x);
-      value = cv::saturate_cast<uchar>(value + noise(*rng));
+      value = cv::saturate_cast<uchar>(value + sigma * normal(*rng));
     }
 }
 

@@ -26,8 +26,8 @@ Truth ReadTruth(const std::filesystem::path& path) {
     if (!row) continue;
     const auto& x = joints.Members()[i].Items();
     if (x.size() != 3) throw joints.Members()[i].Unwanted("three coordinates");
-    truth.x_in_cam_m.col(std::ssize(truth.landmarks)) << x[0].Number(), x[1].Number(),
-        x[2].Number();
+    truth.x_in_cam_m.col(std::ssize(truth.landmarks)) =
+        Eigen::Vector3d(x[0].Number(), x[1].Number(), x[2].Number());
     truth.landmarks.push_back(*row);
   }
   if (truth.landmarks.size() < 4) throw joints.Unwanted("at least four joints of body15");

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <filesystem>
+
+namespace poselift {
+
+// The whole of a TOML file. Throws InputError with file:line for what is no TOML and for more
+// than 48 dots in a line that is no comment.
+toml::table ReadToml(const std::filesystem::path& path);
+
+}  // namespace poselift
