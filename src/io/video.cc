@@ -91,6 +91,7 @@ VideoFile::VideoFile(const fs::path& path, Pictures pictures) : path_(path), pic
   if (static_cast<double>(size_px_.width) * size_px_.height > kMaxImagePixels)
     throw InputError(path, fmt::format("has {} x {} pixels, wanted at most {:.0f} million",
                                        size_px_.width, size_px_.height, kMaxImagePixels / 1e6));
+  if (const double rate_hz = capture_.get(cv::CAP_PROP_FPS); rate_hz > 0.0) step_s_ = 1.0 / rate_hz;
   if (StatesFrames(path)) stated_frames_ = capture_.get(cv::CAP_PROP_FRAME_COUNT);
   if (!open || !Advance()) throw CutShort(path);
 }
@@ -124,6 +125,9 @@ std::optional<double> VideoFile::Skip_s() {
   double time_s = time_s_;
   ++index_;
   const bool is_last = !Advance();
+  // OpenCV 4.6 has 0 of the frames that the decoder still held when the file was at its end, as
+  // it does where there are B-frames (opencv/opencv#22141): they go on as evenly as those before.
+  if (!is_last && time_s_ == 0.0) time_s_ = std::max(time_s, 0.0) + step_s_;
   // Of a first frame at 0 OpenCV gives the decoding time, which may lie anywhere.
   if (index_ == 1 && (is_last || time_s < 0.0 || time_s >= time_s_)) time_s = 0.0;
   if (is_last) {
@@ -134,6 +138,7 @@ std::optional<double> VideoFile::Skip_s() {
     throw InputError(path_, fmt::format("found frame {} at {:.6f} s behind one at {:.6f} s, wanted "
                                         "times that grow; write the file anew with its times set",
                                         index_, time_s_, time_s));
+  step_s_ = time_s_ - time_s;
   return time_s;
 }
 

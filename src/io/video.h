@@ -43,7 +43,8 @@ class VideoFile : public FrameSource {
   double stated_frames_ = 0.0;  // by the container, often an estimate
   bool grabbed_ = false;        // the frame `index_` waits in capture_
   int index_ = 0;
-  double time_s_ = 0.0;  // of that frame
+  double time_s_ = 0.0;         // of that frame
+  double step_s_ = 1.0 / 30.0;  // to it from the frame before
 };
 
 // The time of each frame of a video file, in order: decodes it once.
