@@ -18,7 +18,8 @@ AprilGrid ReadAprilGridYaml(const std::filesystem::path& path) {
   const YamlValue root = document.root();
   const YamlValue type = root.At("target_type");
   if (type.String() != "aprilgrid")
-    throw type.Unwanted("aprilgrid; of a checkerboard give --board chessboard --corners --square-mm");
+    throw type.Unwanted(
+        "aprilgrid; of a checkerboard give --board chessboard --corners --square-mm");
   AprilGrid grid{.family = "tag36h11b2"};
   grid.rows = root.At("tagRows").Integer(1, 1000);
   grid.columns = root.At("tagCols").Integer(1, 1000);
