@@ -17,8 +17,10 @@ AprilGrid ReadAprilGridYaml(const std::filesystem::path& path) {
   const YamlDocument document(path);
   const YamlValue root = document.root();
   const YamlValue type = root.At("target_type");
-  if (type.String() != "aprilgrid") throw type.Unwanted("aprilgrid");
-  AprilGrid grid;
+  if (type.String() != "aprilgrid")
+    throw type.Unwanted(
+        "aprilgrid; of a checkerboard give --board chessboard --corners --square-mm");
+  AprilGrid grid{.family = "tag36h11b2"};
   grid.rows = root.At("tagRows").Integer(1, 1000);
   grid.columns = root.At("tagCols").Integer(1, 1000);
   grid.tag_size_m = root.At("tagSize").Number();

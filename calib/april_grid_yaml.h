@@ -9,7 +9,8 @@
 namespace poselift {
 
 // Kalibr's description of a target: target_type aprilgrid, tagRows, tagCols, tagSize in
-// metres, tagSpacing; and tagFamily and firstId, which are ours (tag36h11 and 0 without).
+// metres, tagSpacing; and tagFamily and firstId, which are ours. Without them the tags are those
+// that Kalibr prints and looks for: tag36h11b2, from 0.
 //
 // Throws InputError with file:line for what is no YAML, another target, a key that is missing
 // or no number, and a grid that is not valid.

@@ -29,8 +29,21 @@ struct Row {
   void (*destroy)(apriltag_family_t*);
 };
 
+// The same codes with a black border of two cells, as AprilTag 1 allowed and Kalibr prints them.
+apriltag_family_t* CreateTag36h11b2() {
+  apriltag_family_t* family = tag36h11_create();
+  family->width_at_border += 2;
+  family->total_width += 2;
+  for (uint32_t i = 0; i < family->nbits; ++i) {
+    ++family->bit_x[i];
+    ++family->bit_y[i];
+  }
+  return family;
+}
+
 constexpr std::array kFamilies = {
     Row{"tag36h11", tag36h11_create, tag36h11_destroy},
+    Row{"tag36h11b2", CreateTag36h11b2, tag36h11_destroy},
     Row{"tag36h10", tag36h10_create, tag36h10_destroy},
     Row{"tag25h9", tag25h9_create, tag25h9_destroy},
     Row{"tag16h5", tag16h5_create, tag16h5_destroy},

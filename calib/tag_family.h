@@ -11,7 +11,8 @@ struct apriltag_family;
 
 namespace poselift {
 
-// A family of AprilTags (Olson 2011; Wang and Olson 2016) as libapriltag has it.
+// A family of AprilTags (Olson 2011; Wang and Olson 2016) as libapriltag has it, and
+// tag36h11b2: tag36h11 with a black border of two cells, which Kalibr prints.
 class TagFamily {
  public:
   // Throws InputError, with the names there are, for one that is unknown.

@@ -16,15 +16,19 @@ double Now_s() {
 
 std::optional<VideoFrame> PacedFrameSource::Next() {
   int num_lost = 0;
+  std::optional<VideoFrame> late;
   for (;;) {
     auto frame = source_->Next();
-    if (!frame) return std::nullopt;
+    if (!frame && late) late->num_lost = num_lost - 1;
+    if (!frame) return late;
     if (start_s_ < 0.0) start_s_ = Now_s() - frame->time_s;
     const double due_s = start_s_ + frame->time_s, step_s = frame->time_s - last_s_;
     last_s_ = frame->time_s;
     const double now_s = Now_s();
     if (now_s - due_s > step_s && step_s > 0.0) {
-      ++num_lost;
+      num_lost += 1 + frame->num_lost;
+      frame->monotonic_s = due_s;
+      late = std::move(frame);
       continue;
     }
     if (now_s < due_s) std::this_thread::sleep_for(std::chrono::duration<double>(due_s - now_s));

@@ -9,7 +9,8 @@
 namespace poselift {
 
 // A video as a camera would show it: no frame before its time, and none that is late by
-// more than a frame's time; those are counted as lost. Clocks are CLOCK_MONOTONIC.
+// more than a frame's time; those are counted as lost. The last frame comes however late it
+// is, so that all are counted. Clocks are CLOCK_MONOTONIC.
 class PacedFrameSource : public FrameSource {
  public:
   explicit PacedFrameSource(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}

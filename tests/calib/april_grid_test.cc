@@ -64,6 +64,34 @@ TEST(AprilGridTest, CornersAreFoundWhereTheyWerePlanted) {
   }
 }
 
+// Two cells of black around the bits, and a black square in each gap's corners, which touch the
+// tags'.
+TEST(AprilGridTest, KalibrsPrintIsFound) {
+  AprilGrid grid = Grid();
+  grid.family = "tag36h11b2";
+  const double gap_m = grid.Pitch_m() - grid.tag_size_m;
+  const auto print = [&, tags = testing::PrintOf(grid)](const Eigen::Vector2d& x_in_board_m) {
+    const auto from_gap_m = [&](double x_m) {
+      return x_m + gap_m - grid.Pitch_m() * std::floor((x_m + gap_m) / grid.Pitch_m());
+    };
+    const bool in_square =
+        x_in_board_m.minCoeff() > -gap_m && x_in_board_m.x() < grid.Width_m() + gap_m &&
+        x_in_board_m.y() < grid.Height_m() + gap_m && from_gap_m(x_in_board_m.x()) < gap_m &&
+        from_gap_m(x_in_board_m.y()) < gap_m;
+    return in_square ? 30.0 : tags(x_in_board_m);
+  };
+  AprilGridFinder finder(grid), other(Grid());
+  for (const auto& pose : {Before(0, 0, 0.4, 0.1), Before(0.03, 0.02, 0.45, 0.6)}) {
+    const cv::Mat picture = testing::RenderBoard(print, SmallCamera(), pose);
+    const BoardView view = finder.Find(picture);
+    EXPECT_EQ(view.ids.size(), 80u);
+    const Eigen::Matrix2Xd error_px = BoardResiduals_px(finder.board(), view, SmallCamera(), pose);
+    EXPECT_LT(error_px.colwise().norm().maxCoeff(), 0.15);
+    EXPECT_LT(error_px.rowwise().mean().norm(), 0.02);
+    EXPECT_TRUE(other.Find(picture).empty());
+  }
+}
+
 TEST(AprilGridTest, PartOfAGridCounts) {
   AprilGridFinder finder(Grid());
   const auto pose = Before(0.22, 0.12, 0.4, 0.2);
@@ -157,7 +185,7 @@ TEST(AprilGridYaml, KalibrsTargetIsRead) {
   EXPECT_EQ(grid.tag_size_m, 0.088);
   EXPECT_EQ(grid.spacing, 0.3);
   EXPECT_EQ(grid.first_id, 0);
-  EXPECT_EQ(grid.family, "tag36h11");
+  EXPECT_EQ(grid.family, "tag36h11b2");
 }
 
 TEST(AprilGridYaml, WrittenIsRead) {

@@ -60,5 +60,16 @@ TEST(PacedFrameSourceTest, ASlowReaderLosesFramesAndIsTold) {
   EXPECT_EQ(late->index, late->num_lost + 1);
 }
 
+TEST(PacedFrameSourceTest, FramesLostAtTheEndAreToldWithTheLast) {
+  PacedFrameSource source(std::make_unique<CountingSource>(5));
+  ASSERT_TRUE(source.Next());
+  std::this_thread::sleep_for(std::chrono::duration<double>(20 * kFrameTime_s));
+  const auto last = source.Next();
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->index, 4);
+  EXPECT_EQ(last->num_lost, 3);
+  EXPECT_FALSE(source.Next());
+}
+
 }  // namespace
 }  // namespace poselift

@@ -18,11 +18,12 @@ modprobe -d "$POSELIFT_VM_CACHE" vivid n_devs=1 node_types=0x1 || exit 1
 modprobe -d "$POSELIFT_VM_CACHE" v4l2loopback video_nr=${loopback#/dev/video} card_label=loop || exit 1
 
 # check WORDS...: runs the function check_WORDS and says how it went; when it failed, with its last
-# commands and what the probe printed. It may leave a reason in the file `skipped`.
+# commands and what the probe printed. It may leave a reason in the file `skipped`, and in `told`
+# what is to be printed with it.
 failures=0
 check() {
   local words=$* begin=${EPOCHREALTIME/./} code seconds
-  rm -f out err skipped
+  rm -f out err skipped told
   (
     trap 'exec 2>&-; jobs -p | xargs -r kill -9' EXIT
     set -ex
@@ -34,6 +35,7 @@ check() {
     echo "skipped  $words: $(<skipped)"
   elif ((code == 0)); then
     echo "ok       $words ($seconds s)"
+    if [[ -e told ]]; then sed 's/^/         /' told; fi
   else
     echo "FAILED   $words ($seconds s)"
     tail -n 6 trace out err 2>/dev/null | cut -c1-300
@@ -293,14 +295,18 @@ check_a_camera_that_stops_sending_is_told() {
 check_tags_are_tracked() {
   write MJPG 640x480 "$clip"/*.jpg
   "$poselift" track --device $loopback --size 640x480 --camera "$clip/camera.yaml" \
-    --tags "$clip/tags.toml" --seconds 15 --out run --json report.json >out 2>err
+    --tags "$clip/tags.toml" --seconds 15 --record --out run --json report.json >out 2>err
   local frames ok tags
+  grep 'frames in' out >told # the latency: of an emulated machine
   frames=$(sed -n 's/^ *"frames": \([0-9]*\),$/\1/p' report.json)
   ok=$(sed -n 's/^ *"ok": \([0-9]*\),$/\1/p' report.json)
   tags=$(sed -n 's/^ *"tags_per_frame": \([0-9]*\).*/\1/p' report.json)
   ((frames >= 2 && 10 * ok > 8 * frames && tags > 7))
   has '^MOTION' run/poses.bvh
   (($(wc -l <run/angles.csv) > 3))
+  # Every frame that was tracked is in the raw video, and can be decoded.
+  (($(ffprobe -loglevel error -count_frames -select_streams v -show_entries \
+    stream=nb_read_frames -of csv=p=0 run/video.mkv | tr -d ,) == frames))
 }
 
 check cameras are listed

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "calib/april_grid_yaml.h"
 #include "calib/tag_family.h"
 #include "src/body_segments.h"
 #include "src/input_error.h"
@@ -37,6 +38,21 @@ Json DescribeBodyTags(const std::filesystem::path& path) {
   }
   if (!tags.bone_lengths_m.empty()) facts["bone_lengths"] = tags.bone_lengths_m.size();
   return facts;
+}
+
+bool IsAprilGrid(const std::filesystem::path& path, std::string_view head) {
+  return (HasEnding(path, ".yaml") || HasEnding(path, ".yml")) &&
+         head.find("target_type") != std::string_view::npos;
+}
+
+Json DescribeAprilGrid(const std::filesystem::path& path) {
+  const AprilGrid grid = ReadAprilGridYaml(path);
+  return {{"family", grid.family},
+          {"tags", {{"rows", grid.rows}, {"columns", grid.columns}}},
+          {"ids", {grid.first_id, grid.first_id + grid.num_tags() - 1}},
+          {"tag_size_m", grid.tag_size_m},
+          {"spacing", grid.spacing},
+          {"size_m", {grid.Width_m(), grid.Height_m()}}};
 }
 
 }  // namespace poselift::cli

@@ -17,7 +17,8 @@ std::span<const Recogniser> Recognisers() {
       Recogniser{"pose dictionary", IsDictionary, DescribeDictionary},
       Recogniser{"motion codebook", IsMotionCodebook, DescribeMotionCodebook},
       Recogniser{"picture", IsImage, DescribeImage},
-      Recogniser{"tags of a body", IsBodyTags, DescribeBodyTags},  // before all other YAML
+      Recogniser{"tags of a body", IsBodyTags, DescribeBodyTags},  // these two before cameras
+      Recogniser{"calibration board", IsAprilGrid, DescribeAprilGrid},
       Recogniser{"camera", IsCamera, DescribeCamera},
       Recogniser{"lifted poses", IsPoses, DescribePoses},
       Recogniser{"true joints", IsTruth, DescribeTruth},

@@ -43,6 +43,10 @@ nlohmann::ordered_json DescribeMotionCodebook(const std::filesystem::path& path)
 bool IsBodyTags(const std::filesystem::path& path, std::string_view head);
 nlohmann::ordered_json DescribeBodyTags(const std::filesystem::path& path);
 
+// Kalibr's target file of an AprilTag grid: recognise_tags.cc.
+bool IsAprilGrid(const std::filesystem::path& path, std::string_view head);
+nlohmann::ordered_json DescribeAprilGrid(const std::filesystem::path& path);
+
 bool IsCamera(const std::filesystem::path& path, std::string_view head);
 nlohmann::ordered_json DescribeCamera(const std::filesystem::path& path);
 

@@ -194,6 +194,22 @@ TEST(Info, ReadsTheTrainingRecordOfAMotionCodebook) {
   EXPECT_EQ(facts["command"], "poselift train --motion");
 }
 
+TEST(Info, KnowsKalibrsTarget) {
+  WriteScratch("grid.yaml",
+               "target_type: 'aprilgrid'\ntagCols: 6\ntagRows: 5\ntagSize: 0.088\n"
+               "tagSpacing: 0.25\n");
+  const json facts = FactsOf("grid.yaml");
+  EXPECT_EQ(facts["kind"], "calibration board");
+  EXPECT_EQ(facts["family"], "tag36h11b2");
+  EXPECT_EQ(facts["tags"], json({{"rows", 5}, {"columns", 6}}));
+  EXPECT_EQ(facts["ids"], json({0, 29}));
+  EXPECT_NEAR(facts["size_m"][0], 0.088 * (6 + 5 * 0.25), 1e-9);
+  WriteScratch("chess.yaml", "target_type: 'checkerboard'\ntargetCols: 6\n");
+  const ProgramRun chess = RunProgram("info chess.yaml");
+  EXPECT_EQ(chess.code, 3);
+  EXPECT_THAT(chess.err, HasSubstr("chess.yaml:1: target_type: found"));
+}
+
 TEST(Info, SaysSizeAndFormatOfAPicture) {
   WritePng(ScratchDir() / "p.png", cv::Mat(40, 60, CV_8UC3, cv::Scalar(1, 2, 3)));
   std::filesystem::rename(ScratchDir() / "p.png", ScratchDir() / "by_content");
