@@ -10,7 +10,8 @@ namespace poselift {
 
 // Kalibr's description of a target: target_type aprilgrid, tagRows, tagCols, tagSize in
 // metres, tagSpacing; and tagFamily and firstId, which are ours. Without them the tags are those
-// that Kalibr prints and looks for: tag36h11b2, from 0.
+// that Kalibr prints and looks for: tag36h11b2, from 0. The black squares that it prints between
+// them touch their corners, and hide some of them from libapriltag: a board then counts in part.
 //
 // Throws InputError with file:line for what is no YAML, another target, a key that is missing
 // or no number, and a grid that is not valid.
