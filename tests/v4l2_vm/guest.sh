@@ -309,6 +309,21 @@ check_tags_are_tracked() {
     stream=nb_read_frames -of csv=p=0 run/video.mkv | tr -d ,) == frames))
 }
 
+# A board that is held still for some frames in each of its views.
+check_a_camera_is_calibrated() {
+  local held=() picture
+  for picture in "$clip"/board/*.jpg; do
+    for _ in {1..20}; do held+=("$picture"); done
+  done
+  write MJPG 640x480 "${held[@]}"
+  "$poselift" calibrate $loopback --board aprilgrid --target "$clip/board/target.yaml" --lens none \
+    --seconds 40 --no-picture --out found.yaml --json report.json >out 2>err
+  grep 'focal\|rms over' out >told
+  local fx
+  fx=$("$poselift" info found.yaml | sed -n 's/^ *focal_length_px *\[\([0-9]*\).*/\1/p')
+  ((fx > 686 && fx < 714)) # planted: 700
+}
+
 check cameras are listed
 check YUYV streams
 check NV12 streams
@@ -331,4 +346,5 @@ check damaged MJPG is told frame by frame
 check the format of a writer is taken as it is
 check a camera that stops sending is told
 check tags are tracked
+check a camera is calibrated
 ((failures == 0)) || { echo "$failures checks failed"; exit 1; }
