@@ -19,8 +19,8 @@ constexpr int kSteps = 12;   // across it
 constexpr double kFarthest_px = 3.0;
 constexpr double kMinContrast = 5.0;  // grey levels
 constexpr double kConverged_px = 0.002;
-constexpr double kClear =
-    0.35;  // of the contrast: a level further from its border's is another thing
+// Of the contrast: a level further from its border's is that of another thing.
+constexpr double kClear = 0.35;
 constexpr int kLeastClear = 16;         // places of an edge
 constexpr double kStraggler_px = 0.15;  // from the line, and more than thrice as far as is usual
 
@@ -113,8 +113,7 @@ Levels LevelsBeside(const Edge& a, const Edge& b) {
   };
   constexpr int kLow = kPlaces / 2, kHigh = 3 * kPlaces / 2;
   const Levels outward{at(&inner, kLow), at(&outer, kHigh)};
-  const Levels inward{at(&inner, kHigh),
-                      at(&outer, kLow)};  // of families with a white border inside
+  const Levels inward{at(&inner, kHigh), at(&outer, kLow)};  // of reversed borders
   return std::abs(outward.Contrast()) > std::abs(inward.Contrast()) ? outward : inward;
 }
 

@@ -2,8 +2,12 @@
 // Copyright (c) 2026 the poselift authors
 #include "src/body_tags.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "src/input_error.h"
 #include "src/joints.h"
 
 namespace poselift {
@@ -28,20 +32,20 @@ Eigen::Vector3d Direction(TagFacing faces) {
   return Eigen::Vector3d::UnitY();
 }
 
-Eigen::Matrix3d BoneFromTag(const Bone& bone, TagFacing faces) {
+// A print has no upright along what it faces: then nothing.
+std::optional<Eigen::Matrix3d> BoneFromTag(const Bone& bone, TagFacing faces) {
+  constexpr double kLeastAcross = 0.3;
   const Eigen::Vector3d along = bone.tip_m.normalized();  // 0 of the pelvis
+  const bool is_arm = std::abs(along.x()) > 0.8;          // level at rest
   const bool is_limb = !along.isZero() && along.y() < 0.5;
-  Eigen::Vector3d outward = Direction(faces);
-  Eigen::Vector3d down = -Eigen::Vector3d::UnitY();
-  if (std::abs(along.x()) > 0.8) {  // an arm: level at rest
-    outward = Eigen::Quaterniond::FromTwoVectors(down, along) * outward;
-    down = along;
-  } else if (is_limb) {
-    down = along;
-  }
+  Eigen::Vector3d outward = Direction(faces), down = -Eigen::Vector3d::UnitY();
+  if (is_arm) outward = Eigen::Quaterniond::FromTwoVectors(down, along) * outward;
+  if (is_limb) down = along;
+  const Eigen::Vector3d across = outward - outward.dot(down) * down;
+  if (across.norm() < kLeastAcross) return std::nullopt;
   Eigen::Matrix3d bone_from_tag;
   bone_from_tag.col(1) = down;
-  bone_from_tag.col(2) = -(outward - outward.dot(down) * down).normalized();
+  bone_from_tag.col(2) = -across.normalized();
   bone_from_tag.col(0) = down.cross(bone_from_tag.col(2));
   return bone_from_tag;
 }
@@ -60,9 +64,15 @@ BodyTags OnBones(BodyTags tags, const Skeleton& skeleton) {
     const auto joint = FindJoint(tag.on_joint->joint);
     if (!joint) continue;
     const Bone& bone = skeleton.bones.at(static_cast<size_t>(*joint));
+    const auto rotation = BoneFromTag(bone, *tag.on_joint->faces);
+    if (!rotation)
+      throw InputError(fmt::format(
+          "tag {}: found that it faces along the bone to {}, wanted across: front, back, left or "
+          "right, and up on a foot",
+          tag.id, tag.on_joint->joint));
     tag.on_bone = TagOnBone{
         .bone = bone.name, .sigma_m = tag.on_joint->sigma_m, .sigma_rad = kFacingSigma_rad};
-    tag.on_bone->bone_from_tag.linear() = BoneFromTag(bone, *tag.on_joint->faces);
+    tag.on_bone->bone_from_tag.linear() = *rotation;
     tag.on_bone->bone_from_tag.translation() =
         bone.tip_m - tag.on_bone->bone_from_tag.linear() * tag.on_joint->joint_in_tag_m;
     tag.on_joint.reset();

@@ -56,7 +56,8 @@ struct BodyTags {
 };
 
 // Tags that say what they face, as they sit on the bones of a skeleton whose bones end at the
-// 23 joints: about, some 17 degrees off. The others stay as they are.
+// 23 joints: about, some 17 degrees off. The others stay as they are. Throws InputError for a tag
+// that faces along its bone.
 BodyTags OnBones(BodyTags tags, const Skeleton& skeleton);
 
 }  // namespace poselift

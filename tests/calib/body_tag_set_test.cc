@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "src/input_error.h"
 #include "src/joints.h"
 #include "tests/support/cmu_like_skeleton.h"
 #include "tests/support/support.h"
@@ -65,6 +66,14 @@ TEST_F(BodyTagSetTest, TagsFaceWhereTheSheetSaysThemToBeStuck) {
   }
   EXPECT_GT(Outward("left_foot").y(), 0.5);
   EXPECT_GT(Down("left_foot").z(), 0.5);
+}
+
+TEST_F(BodyTagSetTest, ATagCannotFaceAlongItsBone) {
+  for (const size_t tag : {3, 4}) {  // the head, an arm
+    BodyTags tags = printed_;
+    tags.tags[tag].on_joint->faces = TagFacing::kUp;
+    EXPECT_THROW(OnBones(tags, skeleton_), InputError) << tags.tags[tag].name;
+  }
 }
 
 TEST_F(BodyTagSetTest, TagsThatDoNotSayWhatTheyFaceStayByTheirJoint) {

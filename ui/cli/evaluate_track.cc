@@ -196,10 +196,10 @@ int Evaluate(const Options& options) {
       rows.push_back(std::move(row));
   const TrackExperimentOptions& experiment = options.experiment;
   fmt::print(
-      "rendered at {:g} m, 1280 x 720, tags {} of {:g} mm, exposure {:.1f} ms, noise {:g} grey "
+      "rendered at {:g} m, 1280 x 720, tags {}, exposure {:.1f} ms, noise {:g} grey "
       "levels; tags {:g} mm and {:.1f} degrees off what is said; seed {}\n",
-      experiment.distance_m, NameOf(experiment.worn), 1e3 * experiment.tag_size_m,
-      1e3 * experiment.exposure_s, experiment.noise_grey_levels, 1e3 * experiment.misplaced_m,
+      experiment.distance_m, NameOf(experiment.worn), 1e3 * experiment.exposure_s,
+      experiment.noise_grey_levels, 1e3 * experiment.misplaced_m,
       experiment.misplaced_rad * 180.0 / 3.14159265, experiment.seed);
   Print(rows);
   if (!options.json.empty()) WriteJson(rows, options);
@@ -224,7 +224,7 @@ CLI::App* AddEvaluateTrack(CLI::App* app, Run* run) {
   command->add_option("--distance-m", experiment.distance_m, "Of the camera")
       ->check(IsNumber(1.0, 10.0))
       ->capture_default_str();
-  command->add_option("--tag-size-m", experiment.tag_size_m, "Of all tags")
+  command->add_option("--tag-size-m", experiment.tag_size_m, "Of all tags but the printed")
       ->check(IsNumber(0.01, 0.3))
       ->capture_default_str();
   command
