@@ -44,6 +44,8 @@ struct PersonPose {
   // 3 x 23 with the pelvis at the origin, metres at the size of the skeleton
   // used; camera axes: x right, y down, z forward.
   Pose3 joints_in_cam_m = Pose3::Constant(3, kNumJoints, kUnknown);
+  // How far off each may be: standard deviations in space; empty when nobody knows.
+  Eigen::VectorXd joints_sigma_m;
 
   // Weak perspective: x_px = scale * (x, y) + translation.
   double scale_px_per_m = kUnknown;

@@ -114,9 +114,10 @@ void TagTracker::Add(double time_s, const std::vector<TagSighting>& sightings) {
   } else if (!seen.empty()) {
     solution = SolveAnew(seen);
   }
-  waiting_.push_back(solution ? std::move(solution->tags) : std::vector<TrackedTag>());
+  Waiting& waiting = waiting_.emplace_back();
   if (!solution) return;
-  filter_.Measure(solution->pose, solution->variances);
+  filter_.Measure(solution->pose, FeatureVariances(solution->covariance, solution->pose));
+  waiting = {std::move(solution->tags), std::move(solution->covariance)};
 }
 
 // A tag that was not doubted of late is news: worth a look at once.
@@ -152,7 +153,8 @@ void TagTracker::TryAnew(double time_s, const std::vector<SeenTag>& seen,
 std::optional<TrackedFrame> TagTracker::Take() {
   auto frame = filter_.Take();
   if (!frame) return std::nullopt;
-  TrackedFrame tracked{std::move(*frame), std::move(waiting_.front())};
+  Waiting& waiting = waiting_.front();
+  TrackedFrame tracked{std::move(*frame), std::move(waiting.tags), std::move(waiting.covariance)};
   waiting_.pop_front();
   return tracked;
 }
@@ -311,7 +313,7 @@ std::optional<TagTracker::Solution> TagTracker::Solve(
     covariance = problem.Covariance();
   }
   if (covariance.size() == 0) return std::nullopt;
-  Solution solution{pose, FeatureVariances(covariance, pose), problem.Cost()};
+  Solution solution{pose, std::move(covariance), problem.Cost()};
   solution.tags = Judge(seen, pose);
   solution.misfit = Misfit(solution.tags, options_.loss);
   return solution;

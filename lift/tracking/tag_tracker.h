@@ -54,6 +54,7 @@ struct TrackedTag {
 struct TrackedFrame {
   SmoothedFrame body;            // in world: y up, the camera at the origin
   std::vector<TrackedTag> tags;  // that the person wears and the frame shows
+  Eigen::MatrixXd covariance;    // PoseProblem::Covariance; empty where tags gave no pose
 };
 
 class TagTracker {
@@ -78,10 +79,14 @@ class TagTracker {
  private:
   struct Solution {
     SkeletonPose pose;
-    FeatureVector variances;
+    Eigen::MatrixXd covariance;
     double cost = 0.0;
     std::vector<TrackedTag> tags = {};
     double misfit = 0.0;  // of the tags
+  };
+  struct Waiting {
+    std::vector<TrackedTag> tags;
+    Eigen::MatrixXd covariance;
   };
 
   std::vector<SkeletonPose> FirstPoses(const std::vector<SeenTag>& seen) const;
@@ -110,7 +115,7 @@ class TagTracker {
   std::map<int, double> doubted_s_;  // when tags were last not believed, by their ids
   // When a pose found anew is next tried, and how long the pause was before.
   double next_try_s_ = -std::numeric_limits<double>::infinity(), pause_s_ = 0.15;
-  std::deque<std::vector<TrackedTag>> waiting_;
+  std::deque<Waiting> waiting_;
 };
 
 }  // namespace poselift

@@ -8,12 +8,35 @@ namespace poselift {
 namespace {
 
 using Kind = SmoothedFrame::Kind;
+constexpr int kSize = 3 + kNumAngles;
 
 std::vector<std::pair<std::string, double>> Named(const Eigen::VectorXd& values) {
   std::vector<std::pair<std::string, double>> named;
   for (Eigen::Index a = 0; a < values.size(); ++a)
     named.emplace_back(JointAngles()[static_cast<size_t>(a)].name, values[a]);
   return named;
+}
+
+// Of a small rotation of the root in world and the dofs. A pose that was not measured has
+// deviations alone.
+Eigen::MatrixXd CovarianceOf(const TrackedFrame& frame) {
+  if (frame.covariance.size() > 0) return frame.covariance.bottomRightCorner<kSize, kSize>();
+  const FeatureVector variances = frame.body.deviations.cwiseAbs2();
+  const Eigen::Matrix3d world_from_heading =
+      Eigen::AngleAxisd(Yaw(frame.body.pose.world_from_root), Eigen::Vector3d::UnitY())
+          .toRotationMatrix();
+  const Eigen::Vector3d turn(variances[feature::kTilt], variances[feature::kYawRate],
+                             variances[feature::kTilt + 1]);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(kSize, kSize);
+  covariance.topLeftCorner<3, 3>() =
+      world_from_heading * turn.asDiagonal() * world_from_heading.transpose();
+  covariance.diagonal().tail<kNumAngles>() = variances.head<kNumAngles>();
+  return covariance;
+}
+
+// The diagonal of J C J^T.
+Eigen::VectorXd Variances(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& covariance) {
+  return (jacobian * covariance).cwiseProduct(jacobian).rowwise().sum().cwiseMax(0.0);
 }
 
 }  // namespace
@@ -43,22 +66,22 @@ PersonPose TrackedPerson::Convert(const TrackedFrame& frame) {
   last_deg_ =
       last_deg_.size() == 0 ? reader_.ReadDeg(body.pose) : reader_.ReadDeg(body.pose, last_deg_);
   person.angles_deg = Named(last_deg_);
-  person.angles_sigma_deg = Named(AnglesSigma_deg(body));
+  const Eigen::MatrixXd covariance = CovarianceOf(frame);
+  person.angles_sigma_deg =
+      Named(Variances(reader_.DerivativeDeg(body.pose), covariance).cwiseSqrt());
+  person.joints_sigma_m = JointsSigma_m(body.pose, covariance);
   return person;
 }
 
-// To first order.
-Eigen::VectorXd TrackedPerson::AnglesSigma_deg(const SmoothedFrame& body) const {
-  const Eigen::Vector3d turn(body.deviations[feature::kTilt], body.deviations[feature::kYawRate],
-                             body.deviations[feature::kTilt + 1]);
-  Eigen::VectorXd deviations(3 + kNumAngles);
-  deviations << turn, body.deviations.head<kNumAngles>();
-  Eigen::MatrixXd by_pose_deg = reader_.DerivativeDeg(body.pose);
-  const Eigen::Matrix3d world_from_heading =
-      Eigen::AngleAxisd(Yaw(body.pose.world_from_root), Eigen::Vector3d::UnitY())
-          .toRotationMatrix();
-  by_pose_deg.leftCols<3>() *= world_from_heading;
-  return (by_pose_deg * deviations.asDiagonal()).rowwise().norm();
+// From the pelvis.
+Eigen::VectorXd TrackedPerson::JointsSigma_m(const SkeletonPose& pose,
+                                             const Eigen::MatrixXd& covariance) const {
+  BoneFrames frames;
+  ForwardKinematics(body_.skeleton, pose, &frames);
+  Eigen::MatrixXd jacobian;
+  JointJacobian(body_.skeleton, body_.sites, pose, frames, &jacobian);
+  const Eigen::VectorXd variances = Variances(jacobian.rightCols<kSize>(), covariance);
+  return Eigen::Map<const Pose3>(variances.data(), 3, kNumJoints).colwise().sum().cwiseSqrt();
 }
 
 }  // namespace poselift

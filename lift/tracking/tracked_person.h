@@ -25,7 +25,7 @@ class TrackedPerson {
   PersonPose Convert(const TrackedFrame& frame);
 
  private:
-  Eigen::VectorXd AnglesSigma_deg(const SmoothedFrame& body) const;
+  Eigen::VectorXd JointsSigma_m(const SkeletonPose& pose, const Eigen::MatrixXd& covariance) const;
 
   Articulation body_;
   Camera camera_;

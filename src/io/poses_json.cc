@@ -71,6 +71,14 @@ void AppendJoints(const Pose3& joints_in_cam_m, std::string* out) {
   joints.Close();
 }
 
+// Of joints from `first` on.
+void AppendByJoint(const Eigen::VectorXd& values_m, int first, std::string* out) {
+  ObjectText joints(out);
+  for (int j = first; j < kNumJoints; ++j)
+    joints.Number(Joints()[j].name, values_m[j], kMetreDecimals);
+  joints.Close();
+}
+
 void AppendNamed(const NamedValues& values, int decimals, std::string* out) {
   ObjectText object(out);
   for (const auto& [name, value] : values) object.Number(name, value, decimals);
@@ -125,6 +133,10 @@ void AppendPerson(const PersonPose& person, std::string* out) {
   if (!person.message.empty()) object.Text("message", person.message);
   object.Key("joints_in_cam");
   AppendJoints(person.joints_in_cam_m, out);
+  if (person.joints_sigma_m.size() > 0) {
+    object.Key("joints_sigma_m");
+    AppendByJoint(person.joints_sigma_m, 0, out);
+  }
   object.Number("scale_px_per_m", person.scale_px_per_m, kMetreDecimals);
   object.Numbers("translation_px", person.translation_px, kPixelDecimals);
   object.Numbers("pelvis_in_cam", person.pelvis_in_cam_m, kMetreDecimals);
@@ -166,12 +178,6 @@ void AppendFrame(const FramePoses& frame, std::string_view before_person, std::s
   object.Close();
 }
 
-void AppendBones(const Eigen::VectorXd& values_m, std::string* out) {
-  ObjectText bones(out);
-  for (int j = 1; j < kNumJoints; ++j) bones.Number(Joints()[j].name, values_m[j], kMetreDecimals);
-  bones.Close();
-}
-
 void AppendBodies(const std::vector<PersonBones>& bodies, std::string* out) {
   *out += "],\n \"bodies\": [";
   for (size_t i = 0; i < bodies.size(); ++i) {
@@ -179,9 +185,9 @@ void AppendBodies(const std::vector<PersonBones>& bodies, std::string* out) {
     ObjectText body(out);
     body.Number("id", bodies[i].id, 0);
     body.Key("bone_lengths_m");
-    AppendBones(bodies[i].lengths_m, out);
+    AppendByJoint(bodies[i].lengths_m, 1, out);
     body.Key("bone_sigmas_m");
-    AppendBones(bodies[i].sigmas_m, out);
+    AppendByJoint(bodies[i].sigmas_m, 1, out);
     body.Close();
   }
 }
@@ -227,18 +233,19 @@ Eigen::Quaterniond ReadRotation(const JsonValue& list) {
   return Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized();
 }
 
-Eigen::VectorXd ReadBones(const JsonValue& object, double least_m) {
+// Of joints from `first` on; 0 before.
+Eigen::VectorXd ReadByJoint(const JsonValue& object, int first, double least_m, double most_m) {
   Eigen::VectorXd values_m = Eigen::VectorXd::Zero(kNumJoints);
-  for (int j = 1; j < kNumJoints; ++j)
-    values_m[j] = object.At(Joints()[j].name).Number(least_m, kLongestBone_m);
+  for (int j = first; j < kNumJoints; ++j)
+    values_m[j] = object.At(Joints()[j].name).Number(least_m, most_m);
   return values_m;
 }
 
 PersonBones ReadBody(const JsonValue& json) {
   constexpr int kLargestInt = std::numeric_limits<int>::max();
   return {json.At("id").Integer(std::numeric_limits<int>::min(), kLargestInt),
-          ReadBones(json.At("bone_lengths_m"), kShortestBone_m),
-          ReadBones(json.At("bone_sigmas_m"), 0.0)};
+          ReadByJoint(json.At("bone_lengths_m"), 1, kShortestBone_m, kLongestBone_m),
+          ReadByJoint(json.At("bone_sigmas_m"), 1, 0.0, kLongestBone_m)};
 }
 
 PoseAlternative ReadAlternative(const JsonValue& json) {
@@ -259,6 +266,8 @@ PersonPose ReadPerson(const JsonValue& json) {
   person.status = json.At("status").String();
   if (const JsonValue* message = json.Find("message")) person.message = message->String();
   person.joints_in_cam_m = ReadJoints(json.At("joints_in_cam"));
+  if (const JsonValue* sigmas = json.Find("joints_sigma_m"))
+    person.joints_sigma_m = ReadByJoint(*sigmas, 0, 0.0, kLargestNumber);
   person.scale_px_per_m = ReadNumberOrUnknown(json, "scale_px_per_m");
   if (const JsonValue* translation = json.Find("translation_px"))
     person.translation_px = ReadNumbers<2>(*translation);

@@ -106,13 +106,17 @@ TEST(PosesJson, ReadBackIsTheSameUpToRounding) {
   EXPECT_TRUE(std::isnan(failed.scale_px_per_m));
 }
 
-TEST(PosesJson, SaysHowSureAnglesAreWhereThatIsKnown) {
+TEST(PosesJson, SaysHowSurePosesAreWhereThatIsKnown) {
   Poses poses = MadeUpPoses();
   EXPECT_THAT(PosesJson(poses), Not(HasSubstr("sigma")));
   poses.frames[0].people[0].angles_sigma_deg = {{"left_elbow.flexion", 2.5}};
+  poses.frames[0].people[0].joints_sigma_m = Eigen::VectorXd::LinSpaced(kNumJoints, 0.0, 0.22);
   const Poses back = ReadPosesJson(WriteScratch("poses.json", PosesJson(poses)));
   EXPECT_EQ(back.frames[0].people[0].angles_sigma_deg, poses.frames[0].people[0].angles_sigma_deg);
   EXPECT_TRUE(back.frames[1].people[0].angles_sigma_deg.empty());
+  EXPECT_TRUE(MatrixNear(back.frames[0].people[0].joints_sigma_m,
+                         poses.frames[0].people[0].joints_sigma_m, 1e-6));
+  EXPECT_EQ(back.frames[1].people[0].joints_sigma_m.size(), 0);
 }
 
 TEST(PosesJson, NamesTheTagsWhereThereAreAny) {

@@ -39,16 +39,17 @@ void TagSession::Add(const VideoFrame& frame) {
   const std::vector<TagSighting> seen =
       SightTags(search_.Detect(frame.grey, predicted_px), tags_, camera_);
   tracker_.Add(frame.time_s, seen);
-  waiting_.push_back({frame.time_s, frame.monotonic_s, static_cast<int>(seen.size())});
+  Waiting& waiting = waiting_.emplace_back(Waiting{frame.time_s, frame.monotonic_s, {}});
+  for (const TagSighting& tag : seen) waiting.tag_ids.push_back(tag.detection.id);
 }
 
 std::optional<TagSession::Tracked> TagSession::Take() {
   const auto frame = tracker_.Take();
   if (!frame) return std::nullopt;
-  const Waiting source = waiting_.front();
-  waiting_.pop_front();
-  Tracked tracked{.monotonic_s = source.monotonic_s, .num_tags = source.num_tags};
+  Waiting& source = waiting_.front();
+  Tracked tracked{.monotonic_s = source.monotonic_s, .tag_ids = std::move(source.tag_ids)};
   tracked.poses.time_s = source.time_s;
+  waiting_.pop_front();
   tracked.poses.people.push_back(person_.Convert(*frame));
   if (frame->body.kind != SmoothedFrame::Kind::kNotKnown) tracked.pose = frame->body.pose;
   return tracked;

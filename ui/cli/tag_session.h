@@ -28,7 +28,7 @@ class TagSession {
     FramePoses poses;                  // of this person alone
     std::optional<SkeletonPose> pose;  // y up, the camera at the origin; nothing: not known
     double monotonic_s = 0.0;          // when the frame was taken, NaN of files
-    int num_tags = 0;                  // of the person's, in the frame
+    std::vector<int> tag_ids;          // of the person's, in the frame
   };
 
   // camera: level. lifter must outlive this. Throws InputError as TagDetector and
@@ -46,7 +46,7 @@ class TagSession {
  private:
   struct Waiting {
     double time_s, monotonic_s;
-    int num_tags;
+    std::vector<int> tag_ids;
   };
 
   BodyTags tags_;

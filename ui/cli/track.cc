@@ -106,7 +106,7 @@ void Count(const TagSession::Tracked& tracked, Counts* counts) {
   counts->ok += status == "ok";
   counts->filled += status == kFilledStatus;
   counts->unknown += status == kUnknownStatus;
-  counts->tags += tracked.num_tags;
+  counts->tags += std::ssize(tracked.tag_ids);
 }
 
 Json Facts(const Options& options, const Counts& counts, const LatencyMeter& latency) {

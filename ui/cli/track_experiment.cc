@@ -6,15 +6,13 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <opencv2/imgproc.hpp>
 #include <random>
 
 #include "calib/body_tag_set.h"
 #include "calib/tag_detector.h"
 #include "lift/normalize.h"
-#include "lift/tracking/person_skeleton.h"
-#include "lift/tracking/tracked_person.h"
 #include "src/joint_angles.h"
-#include "src/level_camera.h"
 #include "src/testing/studio.h"
 #include "src/testing/tag_placement.h"
 #include "ui/cli/tag_session.h"
@@ -34,10 +32,10 @@ bool IsWellSeen(const testing::TagTruth& tag) {
 // Of bones, by the joints at their ends: whether a tag of theirs is detected.
 using SeenBones = std::array<bool, kNumJoints>;
 
-SeenBones FindSeen(const BodyTags& worn, const std::vector<TagDetection>& detections) {
+SeenBones FindSeen(const BodyTags& worn, const std::vector<int>& tag_ids) {
   SeenBones seen{};
-  for (const TagDetection& detection : detections) {
-    const BodyTag* tag = worn.Find(detection.id);
+  for (const int id : tag_ids) {
+    const BodyTag* tag = worn.Find(id);
     if (!tag || !tag->on_bone) continue;
     for (int j = 0; j < kNumJoints; ++j) {
       if (Joints()[static_cast<size_t>(j)].cmu_bone == tag->on_bone->bone)
@@ -84,6 +82,7 @@ class ErrorSums {
     const Eigen::RowVectorXd off_m = (person.joints_in_cam_m - true_m).colwise().norm();
     for (int j = 0; j < kNumJoints; ++j) {
       all_m_ += off_m[j];
+      num_sure_ += off_m[j] <= 2.0 * person.joints_sigma_m[j];
       if (!IsVisible(j, seen)) continue;
       visible_m_ += off_m[j];
       ++num_visible_;
@@ -111,6 +110,7 @@ class ErrorSums {
     const int known = errors.num_frames - errors.num_unknown;
     if (known == 0) return errors;
     errors.all_mm = 1e3 * all_m_ / (known * kNumJoints);
+    errors.sure_share = static_cast<double>(num_sure_) / (known * kNumJoints);
     if (num_visible_ > 0) errors.visible_mm = 1e3 * visible_m_ / num_visible_;
     errors.elbows_deg = elbows_.Rms_deg();
     errors.knees_deg = knees_.Rms_deg();
@@ -122,20 +122,26 @@ class ErrorSums {
   TrackErrors errors_;
   HingeSum elbows_, knees_;
   double all_m_ = 0.0, visible_m_ = 0.0;
-  int num_visible_ = 0;
+  int num_visible_ = 0, num_sure_ = 0;
 };
 
-double DetectedShare(const TaggedVideo& video) {
-  int wanted = 0, found = 0;
-  for (size_t t = 0; t < video.truth.size(); ++t)
-    for (const testing::TagTruth& tag : video.truth[t].tags) {
+// Of the tags that frames show well, those that are found.
+class DetectionSums {
+ public:
+  void Add(const testing::FrameTruth& truth, const std::vector<int>& tag_ids) {
+    for (const testing::TagTruth& tag : truth.tags) {
       if (!IsWellSeen(tag)) continue;
-      ++wanted;
-      found += std::any_of(video.detections[t].begin(), video.detections[t].end(),
-                           [&](const TagDetection& detection) { return detection.id == tag.id; });
+      ++num_wanted_;
+      num_found_ += std::ranges::count(tag_ids, tag.id) > 0;
     }
-  return wanted > 0 ? static_cast<double>(found) / wanted : 0.0;
-}
+  }
+  double Share() const {
+    return num_wanted_ > 0 ? static_cast<double>(num_found_) / num_wanted_ : 0.0;
+  }
+
+ private:
+  int num_wanted_ = 0, num_found_ = 0;
+};
 
 BodyTags Misplaced(BodyTags tags, const TrackExperimentOptions& options) {
   std::mt19937_64 rng(options.seed);
@@ -189,7 +195,9 @@ TaggedVideo RenderTagged(const Motion& motion, const BodyTags& worn,
   const auto poses = testing::PosesOver(walk);
   for (size_t t = 0; t < walk.frames.size(); ++t) {
     const auto frame = renderer.Render(poses, static_cast<double>(t) * walk.frame_time_s);
-    video.detections.push_back(detector.Detect(frame.picture));
+    cv::Mat& grey = video.grey.emplace_back(frame.picture);
+    if (grey.channels() == 3) cv::cvtColor(frame.picture, grey, cv::COLOR_BGR2GRAY);
+    video.detections.push_back(detector.Detect(grey));
     video.truth.push_back(frame.truth);
     if (progress) progress(static_cast<double>(t + 1) / static_cast<double>(walk.frames.size()));
   }
@@ -212,19 +220,28 @@ std::vector<SightedFrame> SightFrames(const std::vector<const TaggedVideo*>& vid
 TrackErrors TrackVideo(const TaggedVideo& video, const Skeleton& captured, const BodyTags& worn,
                        const BodyTags& tags, const Camera& camera, const PhotoLifter& lifter,
                        const std::shared_ptr<const MotionCodebook>& codebook) {
-  const Skeleton skeleton = PersonSkeleton(lifter.dictionary().skeleton, tags);
-  TagTracker tracker(skeleton, tags, camera, kLevelFromCam, lifter, codebook);
-  TrackedPerson person(skeleton, camera, kLevelFromCam);
+  TagSession session(tags, camera, lifter, codebook, {});
   ErrorSums sums(captured);
-  for (const SightedFrame& frame : SightFrames({&video}, tags, camera)) {
-    tracker.Add(frame.time_s, frame.tags);
-    const auto tracked = tracker.Take();  // without latency there is one each time
-    const size_t t = static_cast<size_t>(std::lround(frame.time_s / video.frame_time_s));
-    sums.Add(person.Convert(*tracked), video.truth[t], FindSeen(worn, video.detections[t]));
+  DetectionSums detected;
+  for (size_t t = 0; t < video.grey.size(); ++t) {
+    session.Add({.time_s = static_cast<double>(t) * video.frame_time_s, .grey = video.grey[t]});
+    const auto tracked = session.Take();  // without latency there is one each time
+    sums.Add(tracked->poses.people.front(), video.truth[t], FindSeen(worn, tracked->tag_ids));
+    detected.Add(video.truth[t], tracked->tag_ids);
   }
   TrackErrors errors = sums.Errors();
-  errors.detected_share = DetectedShare(video);
+  errors.detected_share = detected.Share();
   return errors;
+}
+
+double WholeFramesShare(const TaggedVideo& video) {
+  DetectionSums detected;
+  for (size_t t = 0; t < video.truth.size(); ++t) {
+    std::vector<int> tag_ids;
+    for (const TagDetection& detection : video.detections[t]) tag_ids.push_back(detection.id);
+    detected.Add(video.truth[t], tag_ids);
+  }
+  return detected.Share();
 }
 
 }  // namespace poselift::cli

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <opencv2/core/mat.hpp>
 #include <string>
 #include <vector>
 
@@ -36,10 +37,11 @@ struct TrackExperimentOptions {
   uint64_t seed = 1;
 };
 
-// A motion as its video shows it: what is detected in its frames, and the truth.
+// A motion as its video shows it, and the truth.
 struct TaggedVideo {
+  std::vector<cv::Mat> grey;
   std::vector<testing::FrameTruth> truth;
-  std::vector<std::vector<TagDetection>> detections;
+  std::vector<std::vector<TagDetection>> detections;  // in whole frames
   Camera camera;
   double frame_time_s = 0.0;
 };
@@ -52,6 +54,7 @@ struct TrackErrors {
   double elbows_deg = 0.0,
          knees_deg = 0.0;       // RMS of flexion, where tags of both bones are seen; NaN: never
   int num_flips = 0;            // frames in which a seen knee or elbow is 15 cm off or more
+  double sure_share = 0.0;      // of all joints: within twice their sigma of the truth
   double detected_share = 0.0;  // of tags that are turned by less than 60 degrees, not hidden
 };
 
@@ -61,6 +64,9 @@ struct Dress {
 };
 Dress DressFor(const Skeleton& skeleton, const TrackExperimentOptions& options);
 
+// The same of what is detected in whole frames.
+double WholeFramesShare(const TaggedVideo& video);
+
 TaggedVideo RenderTagged(const Motion& motion, const BodyTags& worn,
                          const TrackExperimentOptions& options, const ProgressFn& progress);
 
@@ -68,6 +74,7 @@ TaggedVideo RenderTagged(const Motion& motion, const BodyTags& worn,
 std::vector<SightedFrame> SightFrames(const std::vector<const TaggedVideo*>& videos,
                                       const BodyTags& tags, const Camera& camera);
 
+// By TagSession, as `track` does.
 TrackErrors TrackVideo(const TaggedVideo& video, const Skeleton& captured, const BodyTags& worn,
                        const BodyTags& tags, const Camera& camera, const PhotoLifter& lifter,
                        const std::shared_ptr<const MotionCodebook>& codebook);

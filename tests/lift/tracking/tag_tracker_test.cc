@@ -229,5 +229,29 @@ TEST_F(TagTrackerTest, PosesAreBeforeTheCameraAsPosesJsonHasThem) {
   }
 }
 
+TEST_F(TagTrackerTest, AJointThatNoTagShowsIsUnsure) {
+  TagTracker tracker = Tracker();
+  TrackedPerson converter(person_.skeleton, person_.camera, kLevelFromCam);
+  const auto sigma_m = [&](int frame, const std::vector<TagSighting>& seen) {
+    tracker.Add(TimeOf(frame), seen);
+    return converter.Convert(*tracker.Take()).joints_sigma_m;
+  };
+  const Eigen::VectorXd whole = sigma_m(0, Seen(0));
+  ASSERT_EQ(whole.size(), kNumJoints);
+  EXPECT_EQ(whole[joint::kPelvis], 0.0);  // the others are relative to it
+  EXPECT_GT(whole.tail(kNumJoints - 1).minCoeff(), 0.0);
+  Eigen::VectorXd without_arm;
+  for (int t = 1; t < 15; ++t) {
+    std::vector<TagSighting> seen = Seen(t);
+    std::erase_if(seen, [&](const TagSighting& tag) {
+      const std::string& bone = person_.worn.Find(tag.detection.id)->on_bone->bone;
+      return bone == "lhumerus" || bone == "lradius" || bone == "lwrist" || bone == "lhand";
+    });
+    without_arm = sigma_m(t, seen);
+  }
+  EXPECT_GT(without_arm[joint::kLeftWrist], 3.0 * whole[joint::kLeftWrist]);
+  EXPECT_LT(without_arm[joint::kRightWrist], 2.0 * whole[joint::kRightWrist]);
+}
+
 }  // namespace
 }  // namespace poselift
