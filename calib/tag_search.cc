@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <thread>
+#include <tuple>
 
 #include "src/input_error.h"
 
@@ -17,9 +18,13 @@ using Corners = TagSearch::Corners;
 
 TagDetectorOptions FullOptions(const TagSearchOptions& options) {
   if (const std::string error = options.Validate(); !error.empty()) throw InputError(error);
-  TagDetectorOptions full = options.detector;
-  full.decimate = options.full_decimate;
-  return full;
+  return options.detector;
+}
+
+TagDetectorOptions GlanceOptions(const TagSearchOptions& options) {
+  TagDetectorOptions glance = options.detector;
+  glance.decimate = std::max(glance.decimate, options.glance_decimate);
+  return glance;
 }
 
 // Threads that wait for one another in every small region cost more than they bring.
@@ -53,16 +58,21 @@ void Merge(std::vector<cv::Rect>* regions) {
     }
 }
 
-bool IsBetter(const TagDetection& a, const TagDetection& b) {
-  if (a.id != b.id) return a.id < b.id;
-  return a.hamming != b.hamming ? a.hamming < b.hamming : a.decision_margin > b.decision_margin;
+// Of each tag; sorted by ids.
+void KeepBest(std::vector<TagDetection>* found) {
+  std::ranges::sort(*found, {}, [](const TagDetection& tag) {
+    return std::tuple(tag.id, tag.hamming, -tag.decision_margin);
+  });
+  const auto again = std::ranges::unique(*found, {}, &TagDetection::id);
+  found->erase(again.begin(), again.end());
 }
 
 }  // namespace
 
 std::string TagSearchOptions::Validate() const {
-  if (full_every < 1)
-    return fmt::format("TagSearchOptions::full_every = {}, wanted at least 1", full_every);
+  if (glance_every < 1 || full_every < 1)
+    return fmt::format("TagSearchOptions::glance_every, full_every = {}, {}, wanted at least 1",
+                       glance_every, full_every);
   if (!(margin >= 0.0 && margin <= 100.0))
     return fmt::format("TagSearchOptions::margin = {}, wanted 0 to 100", margin);
   if (!(min_margin_px >= 8.0))
@@ -73,37 +83,31 @@ std::string TagSearchOptions::Validate() const {
 }
 
 TagSearch::TagSearch(const TagFamily& family, const TagSearchOptions& options)
-    : options_(options), in_full_(family, FullOptions(options)) {
+    : options_(options),
+      in_full_(family, FullOptions(options)),
+      in_glance_(family, GlanceOptions(options)) {
   for (int i = 0; i < options.detector.threads; ++i)
     in_regions_.emplace_back(family, RegionOptions(options));
 }
 
-void TagSearch::Reset() {
-  seen_.clear();
-  frames_since_full_ = 0;
-}
-
 std::vector<TagDetection> TagSearch::Detect(const cv::Mat& grey,
                                             const std::map<int, Corners>& predicted_px) {
-  last_was_full_ = seen_.empty() || frames_since_full_ + 1 >= options_.full_every;
   std::vector<TagDetection> found;
-  if (!last_was_full_) {
+  last_look_ = to_full_ == 0 ? Look::kFull : Look::kRegions;
+  if (last_look_ == Look::kFull) {
+    found = in_full_.Detect(grey);
+  } else {
     found = DetectIn(grey, Regions(grey.size(), predicted_px));
-    last_was_full_ = IsOneMissing(found);
+    if (to_glance_ == 0 || IsOneMissing(found)) last_look_ = Look::kGlance;
   }
-  if (last_was_full_) {
-    // Decimation loses small tags that their regions show: keep both.
-    const std::vector<TagDetection> full = in_full_.Detect(grey);
-    found.insert(found.end(), full.begin(), full.end());
-    if (options_.full_decimate > options_.detector.decimate && !seen_.empty()) {
-      const auto regions = DetectIn(grey, Regions(grey.size(), predicted_px));
-      found.insert(found.end(), regions.begin(), regions.end());
-    }
-    std::sort(found.begin(), found.end(), IsBetter);
-    const auto same_id = [](const TagDetection& a, const TagDetection& b) { return a.id == b.id; };
-    found.erase(std::unique(found.begin(), found.end(), same_id), found.end());
+  if (last_look_ == Look::kGlance) {
+    // Lower resolution loses small tags that their regions show: keep both.
+    const std::vector<TagDetection> whole = in_glance_.Detect(grey);
+    found.insert(found.end(), whole.begin(), whole.end());
+    KeepBest(&found);
   }
-  frames_since_full_ = last_was_full_ ? 0 : frames_since_full_ + 1;
+  to_full_ = (to_full_ == 0 ? options_.full_every : to_full_) - 1;
+  to_glance_ = (last_look_ != Look::kRegions ? options_.glance_every : to_glance_) - 1;
   Remember(found);
   return found;
 }
@@ -130,8 +134,8 @@ std::vector<cv::Rect> TagSearch::Regions(const cv::Size& size,
   return regions;
 }
 
-// Only a tag that the last frame showed asks for a full frame, so that one that is hidden for
-// long does not make all frames full.
+// Only a tag that the last frame showed asks for a glance, so that one that is hidden for
+// long does not bring one in every frame.
 bool TagSearch::IsOneMissing(const std::vector<TagDetection>& found) const {
   return std::any_of(seen_.begin(), seen_.end(), [&](const auto& seen) {
     return seen.second.frames_ago == 0 &&
@@ -159,9 +163,7 @@ std::vector<TagDetection> TagSearch::DetectIn(const cv::Mat& grey,
   workers.clear();
   std::vector<TagDetection> found;
   for (const auto& some : found_by) found.insert(found.end(), some.begin(), some.end());
-  std::sort(found.begin(), found.end(), IsBetter);
-  const auto same_id = [](const TagDetection& a, const TagDetection& b) { return a.id == b.id; };
-  found.erase(std::unique(found.begin(), found.end(), same_id), found.end());
+  KeepBest(&found);
   return found;
 }
 

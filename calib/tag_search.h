@@ -13,24 +13,25 @@
 namespace poselift {
 
 struct TagSearchOptions {
-  TagDetectorOptions
-      detector;  // decimate: of the regions; threads: of full frames, and that share regions
-  double full_decimate = 1.0;  // of full frames
-  int full_every = 10;         // frames; 1: always
+  TagDetectorOptions detector;  // threads: of whole frames, and that share regions
+  // Whole frames: every so many frames at half the resolution, and at the full one.
+  double glance_decimate = 2.0;
+  int glance_every = 3, full_every = 30;  // 1: always
   // A region reaches around predicted corners by this part of the tag's longest side, and by
   // min_margin_px at least.
   double margin = 0.75;
   double min_margin_px = 24.0;
-  // A tag that was seen and is not found in its region brings a full frame at once; after so
-  // many frames in a row without it, it is given up and waits for the next full frame.
+  // A tag that was seen and is not found in its region brings a glance at once; after so
+  // many frames in a row without it, it is given up and waits for the next whole frame.
   int patience = 3;
 
   std::string Validate() const;
 };
 
 // Finds tags in a video: near where they are predicted, in regions at full resolution, and in
-// the full frame every so often. No tag that full frames would show is lost for longer than
-// full_every frames, and none that was followed is lost at all without a full frame.
+// whole frames every so often. No tag that whole frames would show is lost for longer than
+// full_every frames, none that a glance shows for longer than glance_every, and none that was
+// followed without a glance.
 class TagSearch {
  public:
   using Corners = Eigen::Matrix<double, 2, 4>;
@@ -42,9 +43,8 @@ class TagSearch {
   std::vector<TagDetection> Detect(const cv::Mat& grey,
                                    const std::map<int, Corners>& predicted_px = {});
 
-  bool last_was_full() const { return last_was_full_; }
-  // Forgets all tags: the next frame is a full one.
-  void Reset();
+  enum class Look { kRegions, kGlance, kFull };
+  Look last_look() const { return last_look_; }
 
  private:
   struct Seen {
@@ -59,11 +59,11 @@ class TagSearch {
   void Remember(const std::vector<TagDetection>& found);
 
   TagSearchOptions options_;
-  TagDetector in_full_;
+  TagDetector in_full_, in_glance_;
   std::vector<TagDetector> in_regions_;  // one a thread
   std::map<int, Seen> seen_;
-  int frames_since_full_ = 0;
-  bool last_was_full_ = false;
+  int to_full_ = 0, to_glance_ = 0;  // frames
+  Look last_look_ = Look::kFull;
 };
 
 }  // namespace poselift

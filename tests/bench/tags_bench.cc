@@ -55,14 +55,11 @@ BENCHMARK(TagsFull)
     ->Unit(benchmark::kMillisecond);
 
 void TagsRegions(benchmark::State& state) {
-  TagSearch search(TagFamily("tag36h11"), {.detector = {.threads = 2},
-                                           .full_decimate = static_cast<double>(state.range(0))});
+  TagSearch search(TagFamily("tag36h11"), {.detector = {.threads = 2}});
   Run(state, &search);
 }
 BENCHMARK(TagsRegions)
-    ->Name("tags_720p/regions/full_decimate")
-    ->Arg(1)
-    ->Arg(2)
+    ->Name("tags_720p/search")
     ->MeasureProcessCPUTime()
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
