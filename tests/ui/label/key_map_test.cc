@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+//
+// Made up: key files by hand. Checked: what they change and what is refused.
+#include "ui/label/key_map.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "src/input_error.h"
+#include "tests/support/support.h"
+
+namespace poselift {
+namespace {
+
+using testing::WriteScratch;
+
+TEST(KeyMap, EachActionHasADescriptionAndKeysOfItsOwn) {
+  const KeyMap map;
+  std::set<std::string> keys;
+  for (const ActionInfo& info : Actions()) {
+    EXPECT_EQ(&InfoOf(info.action), &info) << info.name;
+    EXPECT_FALSE(info.description.empty()) << info.name;
+    EXPECT_FALSE(map.Keys(info.action).empty()) << info.name;
+    for (const std::string& key : map.Keys(info.action))
+      EXPECT_TRUE(keys.insert(key).second) << key;
+  }
+}
+
+TEST(KeyMap, AFileChangesWhatItNames) {
+  const KeyMap map = KeyMap::Read(
+      WriteScratch("keys.toml", "swap_sides = 'M'\ncycle_state = ['O', 'V']\nhelp = []\n"));
+  EXPECT_EQ(map.Text(Action::kSwapSides), "M");
+  EXPECT_EQ(map.Text(Action::kCycleState), "O, V");
+  EXPECT_EQ(map.Text(Action::kHelp), "");
+  EXPECT_EQ(map.Text(Action::kSave), "Ctrl+S");
+}
+
+TEST(KeyMap, WhatIsWrongIsRefusedByItsLine) {
+  for (const auto& [text, wanted] : {std::pair{"\nfly = 'F'\n", "keys.toml:2: found 'fly'"},
+                                     {"save = 3\n", "keys.toml:1: found no text"},
+                                     {"save = 'O'\n", "found 'O' for cycle_state and save"}}) {
+    try {
+      KeyMap::Read(WriteScratch("keys.toml", text));
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(wanted), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace poselift

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "ui/label/key_map.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <map>
+#include <ranges>
+#include <sstream>
+
+#include "src/input_error.h"
+#include "src/io/toml_file.h"
+
+namespace poselift {
+namespace {
+
+constexpr std::array kActions = {
+    ActionInfo{Action::kNextFrame, "next_frame", "Next picture", "Right D"},
+    ActionInfo{Action::kPreviousFrame, "previous_frame", "Previous picture", "Left A"},
+    ActionInfo{Action::kForward10, "forward_10", "10 pictures forward", "Shift+Right"},
+    ActionInfo{Action::kBack10, "back_10", "10 pictures back", "Shift+Left"},
+    ActionInfo{Action::kForward100, "forward_100", "100 pictures forward", "Ctrl+Right"},
+    ActionInfo{Action::kBack100, "back_100", "100 pictures back", "Ctrl+Left"},
+    ActionInfo{Action::kFirstFrame, "first_frame", "First picture", "Home"},
+    ActionInfo{Action::kLastFrame, "last_frame", "Last picture", "End"},
+    ActionInfo{Action::kNextUnlabelled, "next_unlabelled", "Next picture without labels", "N"},
+    ActionInfo{Action::kNextLabelled, "next_labelled", "Next picture with labels", "]"},
+    ActionInfo{Action::kPreviousLabelled, "previous_labelled", "Previous picture with labels", "["},
+    ActionInfo{Action::kNextJoint, "next_joint", "Next joint", "Down Tab"},
+    ActionInfo{Action::kPreviousJoint, "previous_joint", "Previous joint", "Up Shift+Tab"},
+    ActionInfo{Action::kCycleState, "cycle_state", "Visible, occluded, absent", "O"},
+    ActionInfo{Action::kRemove, "remove", "Remove the joint's label", "Delete Backspace"},
+    ActionInfo{Action::kNudgeLeft, "nudge_left", "Joint left by 0.1 px", "Alt+Left"},
+    ActionInfo{Action::kNudgeRight, "nudge_right", "Joint right by 0.1 px", "Alt+Right"},
+    ActionInfo{Action::kNudgeUp, "nudge_up", "Joint up by 0.1 px", "Alt+Up"},
+    ActionInfo{Action::kNudgeDown, "nudge_down", "Joint down by 0.1 px", "Alt+Down"},
+    ActionInfo{Action::kCopyPrevious, "copy_previous", "Labels of the picture before", "C"},
+    ActionInfo{Action::kSwapSides, "swap_sides", "Swap left and right", "X"},
+    ActionInfo{Action::kNextPose, "next_pose", "Next 3D pose that fits", "P"},
+    ActionInfo{Action::kFlipLimb, "flip_limb", "Flip the limb's depth", "B"},
+    ActionInfo{Action::kZoomIn, "zoom_in", "Zoom in", "+ ="},
+    ActionInfo{Action::kZoomOut, "zoom_out", "Zoom out", "-"},
+    ActionInfo{Action::kFit, "fit", "The whole picture", "F"},
+    ActionInfo{Action::kFullSize, "full_size", "100 %", "1"},
+    ActionInfo{Action::kToggleLabels, "toggle_labels", "Show or hide labels", "L"},
+    ActionInfo{Action::kToggleEdges, "toggle_edges", "Show or hide lines between labels", "E"},
+    ActionInfo{Action::kToggleSkeleton, "toggle_skeleton", "Show or hide the 3D pose's skeleton",
+               "H"},
+    ActionInfo{Action::kSave, "save", "Save", "Ctrl+S"},
+    ActionInfo{Action::kUndo, "undo", "Undo", "Ctrl+Z"},
+    ActionInfo{Action::kRedo, "redo", "Redo", "Ctrl+Shift+Z Ctrl+Y"},
+    ActionInfo{Action::kHelp, "help", "All keys", "F1 ?"},
+};
+
+std::vector<std::string> KeysOf(const toml::node& node, const std::filesystem::path& path) {
+  std::vector<std::string> keys;
+  const auto add = [&](const toml::node& key) {
+    const auto text = key.value<std::string>();
+    if (!text)
+      throw InputError(path, static_cast<int>(key.source().begin.line),
+                       "found no text, wanted a key, \"Ctrl+S\", or a list of them");
+    keys.push_back(*text);
+  };
+  if (const toml::array* list = node.as_array())
+    for (const toml::node& key : *list) add(key);
+  else
+    add(node);
+  return keys;
+}
+
+}  // namespace
+
+std::span<const ActionInfo> Actions() { return kActions; }
+
+const ActionInfo& InfoOf(Action action) { return kActions[static_cast<size_t>(action)]; }
+
+KeyMap::KeyMap() {
+  for (const ActionInfo& info : kActions) {
+    std::istringstream keys{std::string(info.default_keys)};
+    std::vector<std::string>& list = keys_.emplace_back();
+    for (std::string key; keys >> key;) list.push_back(key);
+  }
+}
+
+KeyMap KeyMap::Read(const std::filesystem::path& path) {
+  const toml::table table = ReadToml(path);
+  KeyMap map;
+  for (const auto& [name, node] : table) {
+    const auto info = std::ranges::find(kActions, name.str(), &ActionInfo::name);
+    if (info == kActions.end())
+      throw InputError(
+          path, static_cast<int>(name.source().begin.line),
+          fmt::format("found '{}', wanted the name of an action: {}", name.str(),
+                      fmt::join(kActions | std::views::transform(&ActionInfo::name), ", ")));
+    map.keys_[static_cast<size_t>(info->action)] = KeysOf(node, path);
+  }
+  std::map<std::string, std::string_view> owners;
+  for (const ActionInfo& info : kActions)
+    for (const std::string& key : map.Keys(info.action)) {
+      const auto [owner, is_new] = owners.emplace(key, info.name);
+      if (!is_new)
+        throw InputError(path, fmt::format("found '{}' for {} and {}, wanted one action for a key",
+                                           key, owner->second, info.name));
+    }
+  return map;
+}
+
+std::string KeyMap::Text(Action action) const {
+  return fmt::format("{}", fmt::join(Keys(action), ", "));
+}
+
+}  // namespace poselift

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace poselift {
+
+// What a person can do in the labelling window by a key.
+enum class Action {
+  kNextFrame,
+  kPreviousFrame,
+  kForward10,
+  kBack10,
+  kForward100,
+  kBack100,
+  kFirstFrame,
+  kLastFrame,
+  kNextUnlabelled,
+  kNextLabelled,
+  kPreviousLabelled,
+  kNextJoint,
+  kPreviousJoint,
+  kCycleState,
+  kRemove,
+  kNudgeLeft,
+  kNudgeRight,
+  kNudgeUp,
+  kNudgeDown,
+  kCopyPrevious,
+  kSwapSides,
+  kNextPose,
+  kFlipLimb,
+  kZoomIn,
+  kZoomOut,
+  kFit,
+  kFullSize,
+  kToggleLabels,
+  kToggleEdges,
+  kToggleSkeleton,
+  kSave,
+  kUndo,
+  kRedo,
+  kHelp,
+};
+
+struct ActionInfo {
+  Action action;
+  std::string_view name;          // in the keys file: "next_frame"
+  std::string_view description;   // in the list of keys: "Next picture"
+  std::string_view default_keys;  // as QKeySequence reads them, apart by spaces
+};
+
+std::span<const ActionInfo> Actions();
+const ActionInfo& InfoOf(Action action);
+
+// Which keys do what: the defaults, changed by a file.
+class KeyMap {
+ public:
+  KeyMap();
+
+  // TOML: `next_frame = ["Right", "D"]`, one or several keys, none to have none. What the file
+  // does not name stays. Throws InputError with file:line for names of no action and for keys
+  // that two actions have.
+  static KeyMap Read(const std::filesystem::path& path);
+
+  const std::vector<std::string>& Keys(Action action) const {
+    return keys_[static_cast<size_t>(action)];
+  }
+  // For tooltips: "Right, D"; empty without keys.
+  std::string Text(Action action) const;
+
+ private:
+  std::vector<std::vector<std::string>> keys_;
+};
+
+}  // namespace poselift
