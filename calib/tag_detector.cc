@@ -47,8 +47,6 @@ TagDetection Converted(const apriltag_detection_t& found) {
 }  // namespace
 
 std::string TagDetectorOptions::Validate() const {
-  if (threads < 1 || threads > 64)
-    return fmt::format("TagDetectorOptions::threads = {}, wanted 1 to 64", threads);
   if (!(decimate == 1.5 ||
         (decimate >= 1.0 && decimate <= 16.0 && std::floor(decimate) == decimate)))
     return fmt::format("TagDetectorOptions::decimate = {}, wanted 1, 1.5, 2, 3, ... 16", decimate);
@@ -79,7 +77,7 @@ struct TagDetector::Impl {
         num_all_codes(family.get()->ncodes) {
     KeepKnownCodes();
     detector.reset(apriltag_detector_create());
-    detector->nthreads = options.threads;
+    detector->nthreads = 1;
     detector->quad_decimate = static_cast<float>(options.decimate);
     detector->quad_sigma = static_cast<float>(options.blur_sigma_px);
     apriltag_detector_add_family_bits(detector.get(), family.get(), options.max_hamming);

@@ -13,7 +13,6 @@
 namespace poselift {
 
 struct TagDetectorOptions {
-  int threads = 1;
   // Squares are searched in the picture made smaller by this: 1, 1.5, 2, 3, ... Bits and
   // corners are read at full resolution, but tags below 30 px or so are lost at 2.
   double decimate = 1.0;
@@ -31,8 +30,9 @@ struct TagDetectorOptions {
 // corners then moved to where the edges are (tag_corners.h): off by 0.01 px at 2 grey levels
 // of noise, without bias.
 //
-// Own one for each thread that detects: Detect changes it. `threads` are its helpers inside,
-// as many for its whole life. Memory: a table of all codes and of those one bit off; some
+// Own one for each thread that detects: Detect changes it. libapriltag's own threads are not used:
+// now and then they crash as they start, and they race (AprilRobotics/apriltag, issues 70 and
+// 387). Memory: a table of all codes and of those one bit off; some
 // 120 MB for tagStandard52h13 and a few MB for tag36h11, or next to nothing with known_ids.
 class TagDetector {
  public:
@@ -43,7 +43,7 @@ class TagDetector {
   TagDetector& operator=(TagDetector&& other) noexcept;
 
   // By rising id, each once. grey: 8-bit, one channel, is not changed; a picture too small for
-  // a tag has none. The same picture gives the same tags, whatever `threads`.
+  // a tag has none.
   std::vector<TagDetection> Detect(const cv::Mat& grey);
 
   // Ids that the last picture showed more than once: the one with fewer corrected bits, then

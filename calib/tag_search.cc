@@ -16,22 +16,14 @@ namespace {
 
 using Corners = TagSearch::Corners;
 
-TagDetectorOptions FullOptions(const TagSearchOptions& options) {
-  if (const std::string error = options.Validate(); !error.empty()) throw InputError(error);
-  return options.detector;
-}
+constexpr int kOverlap_px = 160;  // of strips
+constexpr int kRim_px = 8;        // of a strip: tags on it are the next one's
+constexpr int kTile_px = 32;      // that strips begin at: libapriltag's tiles, 8 times decimated
+constexpr double kCoarse = 4.0;
 
-TagDetectorOptions GlanceOptions(const TagSearchOptions& options) {
-  TagDetectorOptions glance = options.detector;
-  glance.decimate = std::max(glance.decimate, options.glance_decimate);
-  return glance;
-}
-
-// Threads that wait for one another in every small region cost more than they bring.
-TagDetectorOptions RegionOptions(const TagSearchOptions& options) {
-  TagDetectorOptions region = options.detector;
-  region.threads = 1;
-  return region;
+TagDetectorOptions Decimated(TagDetectorOptions options, double decimate) {
+  options.decimate = std::max(options.decimate, decimate);
+  return options;
 }
 
 cv::Rect RegionAround(const Corners& corners_px, const TagSearchOptions& options) {
@@ -67,6 +59,37 @@ void KeepBest(std::vector<TagDetection>* found) {
   found->erase(again.begin(), again.end());
 }
 
+// What each region shows, in pixels of the whole picture.
+std::vector<std::vector<TagDetection>> DetectInEach(const cv::Mat& grey,
+                                                    const std::vector<cv::Rect>& regions,
+                                                    std::vector<TagDetector>* detectors) {
+  std::vector<std::vector<TagDetection>> found_in(regions.size());
+  const auto detect_every = [&](size_t worker) {
+    for (size_t i = worker; i < regions.size(); i += detectors->size()) {
+      found_in[i] = (*detectors)[worker].Detect(grey(regions[i]));
+      const Eigen::Vector2d corner_px(regions[i].x, regions[i].y);
+      for (TagDetection& tag : found_in[i]) {
+        tag.corners_px.colwise() += corner_px;
+        tag.centre_px += corner_px;
+      }
+    }
+  };
+  std::vector<std::jthread> workers;  // joined, whatever is thrown
+  for (size_t w = 1; w < std::min(detectors->size(), regions.size()); ++w)
+    workers.emplace_back(detect_every, w);
+  detect_every(0);
+  workers.clear();
+  return found_in;
+}
+
+// The best of each tag.
+std::vector<TagDetection> Together(const std::vector<std::vector<TagDetection>>& found_in) {
+  std::vector<TagDetection> found;
+  for (const auto& some : found_in) found.insert(found.end(), some.begin(), some.end());
+  KeepBest(&found);
+  return found;
+}
+
 }  // namespace
 
 std::string TagSearchOptions::Validate() const {
@@ -79,15 +102,18 @@ std::string TagSearchOptions::Validate() const {
     return fmt::format("TagSearchOptions::min_margin_px = {}, wanted at least 8", min_margin_px);
   if (patience < 0)
     return fmt::format("TagSearchOptions::patience = {}, wanted 0 or more", patience);
-  return detector.Validate();
+  if (threads < 1 || threads > 64)
+    return fmt::format("TagSearchOptions::threads = {}, wanted 1 to 64", threads);
+  return Decimated(detector, glance_decimate).Validate();
 }
 
 TagSearch::TagSearch(const TagFamily& family, const TagSearchOptions& options)
-    : options_(options),
-      in_full_(family, FullOptions(options)),
-      in_glance_(family, GlanceOptions(options)) {
-  for (int i = 0; i < options.detector.threads; ++i)
-    in_regions_.emplace_back(family, RegionOptions(options));
+    : options_(options), coarse_(family, Decimated(options.detector, kCoarse)) {
+  if (const std::string error = options.Validate(); !error.empty()) throw InputError(error);
+  for (int i = 0; i < options.threads; ++i) {
+    at_full_.emplace_back(family, options.detector);
+    at_glance_.emplace_back(family, Decimated(options.detector, options.glance_decimate));
+  }
 }
 
 std::vector<TagDetection> TagSearch::Detect(const cv::Mat& grey,
@@ -95,16 +121,14 @@ std::vector<TagDetection> TagSearch::Detect(const cv::Mat& grey,
   std::vector<TagDetection> found;
   last_look_ = to_full_ == 0 ? Look::kFull : Look::kRegions;
   if (last_look_ == Look::kFull) {
-    found = in_full_.Detect(grey);
+    found = DetectInWhole(grey, &at_full_);
   } else {
-    found = DetectIn(grey, Regions(grey.size(), predicted_px));
+    found = Together(DetectInEach(grey, Regions(grey.size(), predicted_px), &at_full_));
     if (to_glance_ == 0 || IsOneMissing(found)) last_look_ = Look::kGlance;
   }
   if (last_look_ == Look::kGlance) {
     // Lower resolution loses small tags that their regions show: keep both.
-    const std::vector<TagDetection> whole = in_glance_.Detect(grey);
-    found.insert(found.end(), whole.begin(), whole.end());
-    KeepBest(&found);
+    found = Together({found, DetectInWhole(grey, &at_glance_)});
   }
   to_full_ = (to_full_ == 0 ? options_.full_every : to_full_) - 1;
   to_glance_ = (last_look_ != Look::kRegions ? options_.glance_every : to_glance_) - 1;
@@ -144,27 +168,30 @@ bool TagSearch::IsOneMissing(const std::vector<TagDetection>& found) const {
   });
 }
 
-std::vector<TagDetection> TagSearch::DetectIn(const cv::Mat& grey,
-                                              const std::vector<cv::Rect>& regions) {
-  std::vector<std::vector<TagDetection>> found_by(in_regions_.size());
-  const auto detect_every = [&](size_t worker) {
-    for (size_t i = worker; i < regions.size(); i += in_regions_.size())
-      for (TagDetection& tag : in_regions_[worker].Detect(grey(regions[i]))) {
-        const Eigen::Vector2d corner_px(regions[i].x, regions[i].y);
-        tag.corners_px.colwise() += corner_px;
-        tag.centre_px += corner_px;
-        found_by[worker].push_back(tag);
-      }
-  };
-  std::vector<std::jthread> workers;  // joined, whatever is thrown
-  for (size_t w = 1; w < std::min(in_regions_.size(), regions.size()); ++w)
-    workers.emplace_back(detect_every, w);
-  detect_every(0);
-  workers.clear();
-  std::vector<TagDetection> found;
-  for (const auto& some : found_by) found.insert(found.end(), some.begin(), some.end());
-  KeepBest(&found);
-  return found;
+// In strips that overlap, one a thread. What is on the rim of a strip is whole in the next one,
+// or so large that it is found at low resolution.
+std::vector<TagDetection> TagSearch::DetectInWhole(const cv::Mat& grey,
+                                                   std::vector<TagDetector>* detectors) {
+  const int count = static_cast<int>(detectors->size());
+  if (count == 1 || grey.rows < count * 2 * kOverlap_px) return detectors->front().Detect(grey);
+  std::vector<cv::Rect> strips;
+  for (int i = 0; i < count; ++i) {
+    const int middle = i * grey.rows / count, next = (i + 1) * grey.rows / count;
+    const int first = i == 0 ? 0 : (middle - kOverlap_px / 2) / kTile_px * kTile_px;
+    const int last = i + 1 == count ? grey.rows : next + kOverlap_px / 2;
+    strips.emplace_back(0, first, grey.cols, last - first);
+  }
+  auto found_in = DetectInEach(grey, strips, detectors);
+  for (int i = 0; i < count; ++i) {
+    const double first = i == 0 ? -1.0 : strips[i].y + kRim_px;
+    const double last = i + 1 == count ? grey.rows : strips[i].br().y - kRim_px;
+    std::erase_if(found_in[i], [&](const TagDetection& tag) {
+      const auto y_px = tag.corners_px.row(1);
+      return y_px.minCoeff() < first || y_px.maxCoeff() > last;
+    });
+  }
+  found_in.push_back(coarse_.Detect(grey));
+  return Together(found_in);
 }
 
 void TagSearch::Remember(const std::vector<TagDetection>& found) {

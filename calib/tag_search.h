@@ -13,7 +13,8 @@
 namespace poselift {
 
 struct TagSearchOptions {
-  TagDetectorOptions detector;  // threads: of whole frames, and that share regions
+  TagDetectorOptions detector;
+  int threads = 1;  // that share regions, and whole frames in strips
   // Whole frames: every so many frames at half the resolution, and at the full one.
   double glance_decimate = 2.0;
   int glance_every = 3, full_every = 30;  // 1: always
@@ -55,12 +56,12 @@ class TagSearch {
   std::vector<cv::Rect> Regions(const cv::Size& size,
                                 const std::map<int, Corners>& predicted_px) const;
   bool IsOneMissing(const std::vector<TagDetection>& found) const;
-  std::vector<TagDetection> DetectIn(const cv::Mat& grey, const std::vector<cv::Rect>& regions);
+  std::vector<TagDetection> DetectInWhole(const cv::Mat& grey, std::vector<TagDetector>* detectors);
   void Remember(const std::vector<TagDetection>& found);
 
   TagSearchOptions options_;
-  TagDetector in_full_, in_glance_;
-  std::vector<TagDetector> in_regions_;  // one a thread
+  std::vector<TagDetector> at_full_, at_glance_;  // resolutions, one a thread
+  TagDetector coarse_;                            // for tags too large for a strip
   std::map<int, Seen> seen_;
   int to_full_ = 0, to_glance_ = 0;  // frames
   Look last_look_ = Look::kFull;

@@ -261,4 +261,17 @@ cv::Mat DrawPoseView(const PoseViewInput& input, const PoseViewOptions& options)
   return sheet;
 }
 
+cv::Mat DrawPoseFrom(const PoseViewInput& input, const PoseOrbit& orbit, int side_px) {
+  Check(input, {.panel_px = side_px});
+  const Scene scene =
+      MakeScene(input.joints_in_cam_m, input.alternatives_in_cam_m, input.up_in_cam);
+  cv::Mat panel(side_px, side_px, CV_8UC3, palette::kPaper);
+  View view = OrbitView(scene, orbit.yaw_rad, orbit.pitch_rad);
+  view.title = input.title;
+  DrawPanel(&panel, scene,
+            {view, scene.center_in_cam_m, orbit.zoom * side_px / (2.5 * scene.radius_m),
+             Vector2d::Constant(0.5 * side_px)});
+  return panel;
+}
+
 }  // namespace poselift

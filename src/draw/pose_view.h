@@ -40,4 +40,12 @@ struct PoseViewOptions {
 // direction, or options that do not validate.
 cv::Mat DrawPoseView(const PoseViewInput& input, const PoseViewOptions& options = {});
 
+// One panel, from around the body (OrbitView), its scale the same from everywhere: the
+// panel is a little larger than the body, by `zoom` less.
+struct PoseOrbit {
+  double yaw_rad = 0.7, pitch_rad = 0.35;
+  double zoom = 1.0;
+};
+cv::Mat DrawPoseFrom(const PoseViewInput& input, const PoseOrbit& orbit, int side_px);
+
 }  // namespace poselift

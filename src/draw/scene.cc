@@ -18,6 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double kFarthest_m = 1e4;
 constexpr double kSmallestRadius_m = 0.3;
+constexpr double kEyeDistance = 8.0;  // radii
 
 Pose3 WithoutWildJoints(const Pose3& joints) {
   Pose3 kept = joints;
@@ -96,8 +97,7 @@ Scene MakeScene(const Pose3& joints_in_cam_m, const std::vector<Pose3>& others_i
 }
 
 std::vector<View> StandardViews(const Scene& scene) {
-  constexpr double kYaw_rad = 40.0 * kRadFromDeg, kPitch_rad = 20.0 * kRadFromDeg;
-  const double distance_m = 8.0 * scene.radius_m;
+  const double distance_m = kEyeDistance * scene.radius_m;
   const Vector3d down = -scene.up;
   const auto raised_eye = [&](const Matrix3d& view_from_cam) -> Eigen::Vector2d {
     return (view_from_cam * (0.8 * scene.radius_m * scene.up)).head<2>();
@@ -105,14 +105,19 @@ std::vector<View> StandardViews(const Scene& scene) {
   const Matrix3d front = Matrix3d::Identity();
   const Matrix3d side = Rows(scene.away, down, -scene.right);
   const Matrix3d above = Rows(scene.right, -scene.away, down);
-  const Vector3d ahead = std::cos(kYaw_rad) * scene.away - std::sin(kYaw_rad) * scene.right;
-  const Vector3d ahead_down = std::cos(kPitch_rad) * ahead + std::sin(kPitch_rad) * down;
-  const Vector3d across = down.cross(ahead);
-  const Matrix3d between = Rows(across, ahead_down.cross(across), ahead_down);
   return {{"front: as the camera sees it", front, distance_m, raised_eye(front)},
           {"side: from the camera's right", side, distance_m, raised_eye(side)},
           {"above", above},
-          {"three-quarter", between, distance_m}};
+          OrbitView(scene, 40.0 * kRadFromDeg, 20.0 * kRadFromDeg)};
+}
+
+View OrbitView(const Scene& scene, double yaw_rad, double pitch_rad) {
+  const Vector3d down = -scene.up;
+  const Vector3d ahead = std::cos(yaw_rad) * scene.away - std::sin(yaw_rad) * scene.right;
+  const Vector3d ahead_down = std::cos(pitch_rad) * ahead + std::sin(pitch_rad) * down;
+  const Vector3d across = down.cross(ahead);
+  const Matrix3d view_from_cam = Rows(across, ahead_down.cross(across), ahead_down);
+  return {"three-quarter", view_from_cam, kEyeDistance * scene.radius_m};
 }
 
 Vector3d Projection::operator()(const Vector3d& x_in_cam_m) const {

@@ -44,6 +44,10 @@ struct View {
 // front, side, above, three-quarter.
 std::vector<View> StandardViews(const Scene& scene);
 
+// From around the body: yaw 0 from where the camera is, a quarter turn from its right; pitch
+// upwards. Three-quarter is 40 and 20 degrees.
+View OrbitView(const Scene& scene, double yaw_rad, double pitch_rad);
+
 // x and y in pixels, z the depth in pixels:
 //   s = d / (d + z),   px = scale (eye + s (x - eye)) + offset
 struct Projection {

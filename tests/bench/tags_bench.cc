@@ -42,8 +42,10 @@ void Run(benchmark::State& state, Detector* detector) {
 }
 
 void TagsFull(benchmark::State& state) {
-  TagDetector detector(TagFamily("tag36h11"),
-                       {.threads = 2, .decimate = static_cast<double>(state.range(0))});
+  TagSearch detector(TagFamily("tag36h11"),
+                     {.detector = {.decimate = static_cast<double>(state.range(0))},
+                      .threads = 2,
+                      .full_every = 1});
   Run(state, &detector);
 }
 BENCHMARK(TagsFull)
@@ -55,7 +57,7 @@ BENCHMARK(TagsFull)
     ->Unit(benchmark::kMillisecond);
 
 void TagsRegions(benchmark::State& state) {
-  TagSearch search(TagFamily("tag36h11"), {.detector = {.threads = 2}});
+  TagSearch search(TagFamily("tag36h11"), {.threads = 2});
   Run(state, &search);
 }
 BENCHMARK(TagsRegions)

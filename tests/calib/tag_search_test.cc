@@ -42,7 +42,7 @@ TEST(TagSearchTest, RegionsFindWhatFullFramesFindAtTheSamePlaces) {
   std::mt19937_64 rng = testing::TestRng();
   const TagFamily family("tag36h11");
   const cv::Mat room = testing::Clutter({640, 480}, &rng);
-  TagDetector full(family, {.threads = 2});
+  TagDetector full(family);
   TagSearch search(family), rare(family, {.glance_every = 8});
   int num_whole = 0, num_tags = 0, num_lost = 0, num_lost_by_rare = 0;
   for (int t = 0; t < kNumFrames; ++t) {
@@ -93,6 +93,32 @@ TEST(TagSearchTest, PredictedTagsAreFoundWhereTheyWereNeverSeen) {
   EXPECT_EQ(search.last_look(), Look::kRegions);
 }
 
+// Tags of all sizes and at all heights: across strips, on their rims, larger than they overlap.
+TEST(TagSearchTest, StripsOfThreadsShowWhatOneThreadDoes) {
+  std::mt19937_64 rng = testing::TestRng();
+  const TagFamily family("tag36h11");
+  for (int round = 0; round < 6; ++round) {
+    cv::Mat grey = testing::Clutter({1280, 720}, &rng);
+    std::vector<testing::PlacedTag> tags;
+    for (int id = 0; id < 8; ++id)
+      tags.push_back({id, testing::PxFromTag({80.0 + 130.0 * id, 150.0 + 60.0 * (id + round) / 1.4},
+                                             22.0 + 8.0 * id, 0.1 * round)});
+    tags.push_back({8, testing::PxFromTag({1080.0, 300.0 + 20.0 * round}, 190.0, 0.02)});
+    testing::DrawTags(family, tags, &grey, 210.0, 40.0, 24);
+    testing::AddNoise(2.0, &rng, &grey);
+    const std::vector<TagDetection> one = TagSearch(family).Detect(grey);
+    EXPECT_EQ(one.size(), 9U) << round;
+    for (const int threads : {2, 3}) {
+      const std::vector<TagDetection> found = TagSearch(family, {.threads = threads}).Detect(grey);
+      ASSERT_EQ(found.size(), one.size()) << round << " " << threads;
+      for (size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].id, one[i].id);
+        EXPECT_TRUE(testing::MatrixNear(found[i].corners_px, one[i].corners_px, 0.05)) << round;
+      }
+    }
+  }
+}
+
 TEST(TagSearchTest, WholeFramesShowWhatComes) {
   const TagFamily family("tag36h11");
   TagSearch search(family, {.glance_every = 3, .full_every = 9});
@@ -118,6 +144,7 @@ TEST(TagSearchTest, PredictionsOutsideThePictureAndNoNumbersDoNoHarm) {
   EXPECT_TRUE(search.Detect(cv::Mat()).empty());
   EXPECT_THROW(TagSearch(TagFamily("tag36h11"), {.full_every = 0}), InputError);
   EXPECT_THROW(TagSearch(TagFamily("tag36h11"), {.glance_every = 0}), InputError);
+  EXPECT_THROW(TagSearch(TagFamily("tag36h11"), {.threads = 0}), InputError);
 }
 
 }  // namespace

@@ -16,16 +16,14 @@
 #include "lift/default_dictionary.h"
 #include "lift/dictionary_file.h"
 #include "lift/lift_labels.h"
+#include "lift/lifted_files.h"
 #include "lift/lift_sequence.h"
 #include "lift/normalize.h"
 #include "lift/poses_to_motion.h"
 #include "lift/temporal/motion_codebook_file.h"
-#include "src/io/angles_csv.h"
 #include "src/io/camera_file.h"
 #include "src/io/image.h"
 #include "src/io/labels.h"
-#include "src/io/motion_file.h"
-#include "src/io/poses_json.h"
 #include "ui/cli/command.h"
 #include "ui/cli/frame_rate.h"
 #include "ui/cli/lift_inputs.h"
@@ -69,15 +67,6 @@ LiftInputs Gather(const Options& options) {
                      progress.Callback());
 }
 
-// The time between frames: from their times where they have them.
-double FrameTime_s(const Labels& labels, double fps) {
-  const auto& frames = labels.frames;
-  const bool timed = frames.size() > 1 && frames.front().time_s && frames.back().time_s &&
-                     *frames.back().time_s > *frames.front().time_s;
-  if (!timed) return 1.0 / fps;
-  return (*frames.back().time_s - *frames.front().time_s) / static_cast<double>(frames.size() - 1);
-}
-
 // Whether the frames are those of a motion: all have times, close to each other.
 bool AreOneMotion(const Labels& labels, const Options& options) {
   const auto& frames = labels.frames;
@@ -101,27 +90,6 @@ LiftedLabels LiftMotion(const PhotoLifter& lifter, const Labels& labels,
   sequence.find_proportions = !options.standard_bones;
   return LiftLabelsOverTime(SequenceLifter(lifter, codebook, sequence),
                             lifter.dictionary().skeleton, labels, camera, progress);
-}
-
-bool AnyUsable(const LiftedLabels& lifted) {
-  for (const auto& people : lifted.results)
-    for (const LiftResult& result : people)
-      if (result.IsUsable()) return true;
-  return false;
-}
-
-void WriteResults(const LiftedLabels& lifted, const Labels& labels, const Skeleton& skeleton,
-                  bool is_motion, const Options& options) {
-  const fs::path out = options.out;
-  WritePosesJson(lifted.poses, out / "poses.json");
-  WriteAnglesCsv(lifted.poses, out / "angles.csv");
-  if (is_motion) WriteAnglesSigmaCsv(lifted.poses, out / "angles_sigma.csv");
-  if (!AnyUsable(lifted)) return;
-  const Motion motion = is_motion ? ToMotionOverTime(lifted, skeleton)
-                                  : ToMotion(lifted, skeleton, FrameTime_s(labels, options.fps));
-  if (motion.frames.empty()) return;
-  WriteMotion(motion, out / "poses.bvh");
-  WriteMotion(motion, out / "poses.amc");
 }
 
 void WriteAllPictures(const LiftedLabels& lifted, const LiftInputs& inputs,
@@ -205,7 +173,7 @@ int Lift(const Options& options) {
   const LiftedLabels lifted =
       is_motion ? LiftMotion(lifter, inputs.labels, camera, options, progress.Callback())
                 : LiftLabels(lifter, inputs.labels, camera, progress.Callback());
-  WriteResults(lifted, inputs.labels, dictionary.skeleton, is_motion, options);
+  WriteLifted(lifted, inputs.labels, dictionary.skeleton, is_motion, options.fps, options.out);
   if (!inputs.video.empty()) WriteLabels(inputs.labels, fs::path(options.out) / "labels.json");
   WriteAllPictures(lifted, inputs, camera, options);
   const int usable = Report(lifted);

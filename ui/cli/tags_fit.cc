@@ -42,7 +42,7 @@ struct Options {
 
 std::vector<SightedFrame> Sight(const BodyTags& tags, const Options& options, FrameSource* source,
                                 const Camera& camera) {
-  TagSearchOptions searching{.detector = {.threads = 2}};
+  TagSearchOptions searching{.threads = 2};
   for (const BodyTag& tag : tags.tags) searching.detector.known_ids.push_back(tag.id);
   TagSearch search(TagFamily(tags.family), searching);
   Progress progress("look for tags", 0, "frames");

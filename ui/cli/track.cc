@@ -202,7 +202,7 @@ int Track(Options options) {
 
 CLI::App* AddTrack(CLI::App* app, Run* run) {
   auto options = std::make_shared<Options>();
-  options->session.search.detector.threads = 2;
+  options->session.search.threads = 2;
   CLI::App* command =
       app->add_subcommand("track", "A person who wears AprilTags, followed by a camera, live");
   command->footer(
@@ -228,7 +228,7 @@ CLI::App* AddTrack(CLI::App* app, Run* run) {
       ->capture_default_str();
   command->add_option("--seconds", options->seconds, "Stop after so long (default: at the end)")
       ->check(IsNumber(0.0, 1e6));
-  command->add_option("--threads", options->session.search.detector.threads, "That look for tags")
+  command->add_option("--threads", options->session.search.threads, "That look for tags")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   command->add_flag("--record", options->inputs.keep_encoded,

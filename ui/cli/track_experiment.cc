@@ -188,7 +188,7 @@ TaggedVideo RenderTagged(const Motion& motion, const BodyTags& worn,
       {.exposure_s = options.exposure_s,
        .noise_grey_levels = options.noise_grey_levels,
        .seed = options.seed});
-  TagDetectorOptions detecting{.threads = 2};
+  TagDetectorOptions detecting;
   for (const BodyTag& tag : worn.tags) detecting.known_ids.push_back(tag.id);
   TagDetector detector(family, detecting);
   TaggedVideo video{.camera = placed.camera, .frame_time_s = walk.frame_time_s};
