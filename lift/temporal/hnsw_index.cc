@@ -9,6 +9,9 @@
 #include <unordered_map>
 
 // Defines functions that are not inline: included here alone.
+#ifdef __SANITIZE_ADDRESS__  // what its SSE code prefetches lies behind the list's end
+#define NO_MANUAL_VECTORIZATION
+#endif
 #include <hnswlib/hnswlib.h>
 
 namespace poselift {
