@@ -21,7 +21,7 @@
 namespace poselift::testing {
 namespace {
 
-constexpr std::chrono::seconds kPatience(60);
+constexpr std::chrono::seconds kPatience(300);
 
 // A file without a name.
 class Capture {

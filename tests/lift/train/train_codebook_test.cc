@@ -125,7 +125,9 @@ TEST(TrainCodebook, SameSeedSameBitsWhateverTheThreads) {
   EXPECT_EQ(codebook.segments, by_one.segments);
   EXPECT_EQ(codebook.rates, by_one.rates);
   EXPECT_EQ(codebook.deviations, by_one.deviations);
-  EXPECT_NE(codebook.segments, train(2).segments);
+  const MotionCodebook other = train(2);
+  EXPECT_TRUE(other.segments.size() != codebook.segments.size() ||
+              other.segments != codebook.segments);
 }
 
 TEST(TrainCodebook, HasNoMoreCellsThanSegments) {
