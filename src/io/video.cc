@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <opencv2/core.hpp>
@@ -63,9 +64,11 @@ bool StatesFrames(const fs::path& path) {
 // By how much a frame is to be turned clockwise to stand upright. OpenCV 4.6 has
 // the sign wrong and turns such frames upside down (opencv/opencv#22088).
 int TurnClockwise_deg(const cv::VideoCapture& capture) {
-  const int stated_deg = static_cast<int>(capture.get(cv::CAP_PROP_ORIENTATION_META));
+  // Of a damaged file it is any number.
+  const int stated_deg =
+      static_cast<int>(std::fmod(capture.get(cv::CAP_PROP_ORIENTATION_META), 360.0));
   constexpr bool kAnticlockwise = CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR == 6;
-  return (kAnticlockwise ? 360 - stated_deg : stated_deg) % 360;
+  return (kAnticlockwise ? 360 - stated_deg : 360 + stated_deg) % 360;
 }
 
 void TurnUpright(int clockwise_deg, cv::Mat* picture) {
