@@ -38,12 +38,15 @@ AprilGrid ReadAprilGridYaml(const std::filesystem::path& path) {
 
 void WriteAprilGridYaml(const AprilGrid& grid, const std::filesystem::path& path) {
   if (const std::string flaw = grid.Validate(); !flaw.empty()) throw std::invalid_argument(flaw);
-  WriteFileAtomically(
-      path, fmt::format("target_type: 'aprilgrid'\ntagCols: {}\ntagRows: {}\n"
-                        "tagSize: {}      # metres, between the black and the white border\n"
-                        "tagSpacing: {}   # gap / tagSize\ntagFamily: '{}'\nfirstId: {}\n",
-                        grid.columns, grid.rows, grid.tag_size_m, grid.spacing, grid.family,
-                        grid.first_id));
+  WriteFileAtomically(path, AprilGridYaml(grid));
+}
+
+std::string AprilGridYaml(const AprilGrid& grid) {
+  return fmt::format(
+      "target_type: 'aprilgrid'\ntagCols: {}\ntagRows: {}\n"
+      "tagSize: {}      # metres, between the black and the white border\n"
+      "tagSpacing: {}   # gap / tagSize\ntagFamily: '{}'\nfirstId: {}\n",
+      grid.columns, grid.rows, grid.tag_size_m, grid.spacing, grid.family, grid.first_id);
 }
 
 }  // namespace poselift

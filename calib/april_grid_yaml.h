@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "calib/april_grid.h"
 
@@ -19,5 +20,8 @@ AprilGrid ReadAprilGridYaml(const std::filesystem::path& path);
 
 // Throws InputError when it cannot, std::invalid_argument for a grid that is not valid.
 void WriteAprilGridYaml(const AprilGrid& grid, const std::filesystem::path& path);
+
+// The text that it writes.
+std::string AprilGridYaml(const AprilGrid& grid);
 
 }  // namespace poselift

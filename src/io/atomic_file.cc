@@ -71,4 +71,12 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view byt
   }
 }
 
+void PrepareFolderOf(const std::filesystem::path& path) {
+  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) Fail(folder, "make this folder", error.value());
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) Fail(folder, "write in this folder", errno);
+}
+
 }  // namespace poselift

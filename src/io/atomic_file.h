@@ -14,4 +14,8 @@ namespace poselift {
 // Throws InputError, and leaves no temporary file, when anything fails.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes);
 
+// Makes the folder that a file is to stand in, before the work that makes the file. Throws
+// InputError where that cannot be, or the folder cannot be written to.
+void PrepareFolderOf(const std::filesystem::path& path);
+
 }  // namespace poselift

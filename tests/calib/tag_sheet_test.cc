@@ -75,6 +75,19 @@ TEST(TagsPrintTest, TheBodySetIsTrueToATenthOfAMillimetreWithItsTagsTomlBeside) 
   }
 }
 
+TEST(TagsPrintTest, FoldersAreMadeAndWhatSomebodyChangedIsKept) {
+  ASSERT_EQ(RunProgram("tags print --set body --out new/folder/body.pdf").code, 0);
+  const auto beside = testing::ScratchDir() / "new/folder/body.toml";
+  ASSERT_EQ(RunProgram("tags print --set body --out new/folder/body.pdf").code, 0);
+  BodyTags tags = ReadBodyTags(beside);
+  tags.tags[0].size_m = 0.1;
+  WriteBodyTags(tags, beside);
+  const auto run = RunProgram("tags print --set body --out new/folder/body.pdf");
+  EXPECT_EQ(run.code, 3);
+  EXPECT_NE(run.err.find("move it away"), std::string::npos) << run.err;
+  EXPECT_EQ(ReadBodyTags(beside).tags[0].size_m, 0.1);
+}
+
 TEST(TagsPrintTest, TheBoardHasItsMeasuresAndKalibrsFileBeside) {
   if (std::system(kHasPdftoppm.c_str()) != 0)  // NOLINT(concurrency-mt-unsafe): one thread
     GTEST_SKIP() << "pdftoppm absent: install poppler-utils";

@@ -19,6 +19,7 @@
 #include "calib/calibration_picture.h"
 #include "calib/camera_calibration.h"
 #include "calib/chessboard.h"
+#include "src/io/atomic_file.h"
 #include "src/io/camera_yaml.h"
 #include "src/io/image.h"
 #include "ui/cli/calibrate_report.h"
@@ -116,6 +117,7 @@ int Fail(const std::string& flaw) {
 }
 
 int Calibrate(const Options& options) {
+  PrepareFolderOf(options.out);
   const std::unique_ptr<BoardFinder> finder = MakeFinder(options);
   const SurveyedViews surveyed = SurveyViews(options.inputs, options.views, finder.get());
   CalibrationReport report{*finder, surveyed, {}, {}, options.out, {}};

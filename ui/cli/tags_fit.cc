@@ -101,6 +101,7 @@ void WriteJson(const TagFit& fit, const Options& options) {
 }
 
 int Fit(Options options) {
+  PrepareFolderOf(options.out);
   options.fit.finds_lens = options.inputs.camera.empty();
   const BodyTags tags = ReadBodyTags(options.tags);
   const TrackingModels models = ReadModels(options.inputs);

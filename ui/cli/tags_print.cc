@@ -18,7 +18,9 @@
 #include "calib/body_tag_set.h"
 #include "calib/tag_sheet.h"
 #include "src/input_error.h"
+#include "src/io/atomic_file.h"
 #include "src/io/body_tags_toml.h"
+#include "src/io/mapped_file.h"
 #include "src/io/text_scanner.h"
 #include "ui/cli/tags.h"
 
@@ -69,6 +71,7 @@ void Report(const std::vector<fs::path>& files, size_t num_tags, size_t num_page
 
 int PrintTags(const Options& options, const std::string& family_name,
               const std::vector<SheetTag>& tags) {
+  PrepareFolderOf(options.out);
   const TagFamily family(family_name);
   const Paper& paper = FindPaper(options.paper);
   const std::vector<SheetPage> pages = LayOutTags(family, tags, paper);
@@ -76,10 +79,19 @@ int PrintTags(const Options& options, const std::string& family_name,
   return kDone;
 }
 
+// What somebody has fitted or changed is not written over.
+void RefuseToReplace(const fs::path& file, std::string_view text) {
+  if (!fs::exists(file) || MappedFile(file).Bytes() == text) return;
+  throw InputError(file,
+                   "found a file that is another one, wanted none: move it away, or print to "
+                   "another name");
+}
+
 int PrintBody(const Options& options) {
   const BodyTags tags = DefaultBodyTags();
-  const int code = PrintTags(options, tags.family, SheetTagsOf(tags));
   const fs::path beside = Beside(options, ".toml");
+  RefuseToReplace(beside, BodyTagsToml(tags));
+  const int code = PrintTags(options, tags.family, SheetTagsOf(tags));
   WriteBodyTags(tags, beside);
   std::printf("%s\n", beside.c_str());
   return code;
@@ -93,9 +105,11 @@ int PrintBoard(const Options& options) {
   if (!options.family.empty()) grid.family = options.family;
   const Paper& paper = FindPaper(options.paper);
   const std::vector<SheetPage> pages = LayOutGrid(grid, paper);
+  PrepareFolderOf(options.out);
+  const fs::path beside = Beside(options, ".yaml");
+  RefuseToReplace(beside, AprilGridYaml(grid));
   const auto files = WriteTagSheet(TagFamily(grid.family), pages, paper, options.out);
   Report(files, static_cast<size_t>(grid.num_tags()), pages.size());
-  const fs::path beside = Beside(options, ".yaml");
   WriteAprilGridYaml(grid, beside);
   std::printf("%s\n", beside.c_str());
   return kDone;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the poselift authors
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -11,6 +14,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -69,6 +73,10 @@ class Outputs {
  public:
   Outputs(const Options& options, const Skeleton& skeleton, double frame_time_s)
       : stream_(options.stream) {
+    if (stream_) {
+      std::signal(SIGPIPE, SIG_IGN);
+      ::fcntl(STDOUT_FILENO, F_SETPIPE_SZ, 1 << 20);  // fails where it is no pipe
+    }
     if (!options.out.empty()) recording_.emplace(options.out, skeleton, frame_time_s);
     if (options.udp_port > 0) udp_.emplace(options.udp_port);
   }
@@ -87,15 +95,36 @@ class Outputs {
   void Close() {
     if (recording_) recording_->Close();
   }
+  // Lines of the stream, and datagrams, that nobody took in time.
+  long num_missed() const { return num_missed_ + (udp_ ? udp_->num_lost() : 0); }
   const LatencyMeter& latency() const { return latency_; }
 
  private:
-  static void WriteToStandardOutput(const std::string& line) {
-    if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size() || std::fflush(stdout) != 0)
-      throw InputError("standard output cannot be written: has its reader ended?");
+  // A recording goes on without its listeners.
+  void WriteToStandardOutput(const std::string& line) {
+    if (!HasRoomFor(line.size())) {
+      ++num_missed_;
+      return;
+    }
+    if (std::fwrite(line.data(), 1, line.size(), stdout) == line.size() && std::fflush(stdout) == 0)
+      return;
+    const char* const what = "standard output cannot be written: has its reader ended?";
+    if (!recording_) throw InputError(what);
+    fmt::print(stderr, "poselift: {} The recording goes on\n", what);
+    stream_ = false;
+  }
+
+  // Of a pipe: nobody waits for a reader that is too slow. Its memory is in pages.
+  static bool HasRoomFor(size_t bytes) {
+    constexpr int kPages = 2 * 4096;
+    const int room = ::fcntl(STDOUT_FILENO, F_GETPIPE_SZ);
+    int waiting = 0;
+    if (room < 0 || ::ioctl(STDOUT_FILENO, FIONREAD, &waiting) != 0) return true;
+    return waiting == 0 || waiting + static_cast<long>(bytes) + kPages <= room;
   }
 
   bool stream_;
+  long num_missed_ = 0;
   std::optional<TrackRecording> recording_;
   std::optional<UdpLines> udp_;
   LatencyMeter latency_;
@@ -109,7 +138,8 @@ void Count(const TagSession::Tracked& tracked, Counts* counts) {
   counts->tags += std::ssize(tracked.tag_ids);
 }
 
-Json Facts(const Options& options, const Counts& counts, const LatencyMeter& latency) {
+Json Facts(const Options& options, const Counts& counts, const Outputs& outputs) {
+  const LatencyMeter& latency = outputs.latency();
   Json facts = {{"command", "track"},
                 {"input", options.inputs.input},
                 {"frames", counts.frames},
@@ -120,6 +150,7 @@ Json Facts(const Options& options, const Counts& counts, const LatencyMeter& lat
                 {"tags_per_frame", counts.frames > 0 ? static_cast<double>(counts.tags) /
                                                            static_cast<double>(counts.frames)
                                                      : 0.0},
+                {"lines_missed", outputs.num_missed()},
                 {"seconds", counts.seconds}};
   if (latency.count() > 0)
     facts["latency_ms"] = {{"median", latency.Quantile_ms(0.5)},
@@ -127,7 +158,8 @@ Json Facts(const Options& options, const Counts& counts, const LatencyMeter& lat
   return facts;
 }
 
-void Report(const Options& options, const Counts& counts, const LatencyMeter& latency) {
+void Report(const Options& options, const Counts& counts, const Outputs& outputs) {
+  const LatencyMeter& latency = outputs.latency();
   std::string text = fmt::format(
       "{} frames in {:.1f} s, {} lost: {} ok, {} filled, {} not known; {:.1f} tags a frame",
       counts.frames, counts.seconds, counts.lost, counts.ok, counts.filled, counts.unknown,
@@ -136,12 +168,20 @@ void Report(const Options& options, const Counts& counts, const LatencyMeter& la
   if (latency.count() > 0)
     text += fmt::format("; from camera to line {:.1f} ms at the median, {:.1f} ms at 99 %",
                         latency.Quantile_ms(0.5), latency.Quantile_ms(0.99));
+  if (outputs.num_missed() > 0)
+    text += fmt::format("; {} lines missed by who listens", outputs.num_missed());
   // Standard output may be the stream.
   fmt::print(options.stream ? stderr : stdout, "{}\n", text);
   if (!options.out.empty())
     fmt::print(options.stream ? stderr : stdout, "results in {}\n", options.out);
   if (!options.json.empty())
-    WriteFileAtomically(options.json, Facts(options, counts, latency).dump(2) + "\n");
+    WriteFileAtomically(options.json, Facts(options, counts, outputs).dump(2) + "\n");
+  if (counts.ok == 0)
+    fmt::print(
+        stderr,
+        "poselift: found nobody: are these the tags of {}, their family {}? `poselift doctor` "
+        "tells of the pictures\n",
+        options.tags, ReadBodyTags(options.tags).family);
 }
 
 // What the camera was asked for and what it gave; its raw video when it is wanted.
@@ -167,7 +207,7 @@ int Track(Options options) {
   const Camera camera = CameraOf(options.inputs, source->size_px());
   TagSession session(tags, camera, lifter, models.codebook, options.session);
   std::optional<TrackVideo> video = StartVideo(options, *source);
-  Outputs outputs(options, session.skeleton(), 1.0 / options.inputs.device.rate_hz);
+  Outputs outputs(options, session.skeleton(), FrameTime_s(options.inputs, *source));
   stop_asked = false;
   for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { stop_asked = true; });
 
@@ -180,21 +220,27 @@ int Track(Options options) {
       outputs.Write(*tracked);
     }
   };
-  while (!stop_asked) {
-    const auto frame = source->Next();
-    if (!frame || (options.seconds > 0.0 && frame->time_s >= options.seconds)) break;
-    ++counts.frames;
-    counts.lost += frame->num_lost;
-    if (video) video->Add(*frame);
-    session.Add(*frame);
-    take();
-  }
+  // A camera that is unplugged ends the recording with its last good frame.
+  std::exception_ptr broken;
+  while (!stop_asked && !broken) try {
+      const auto frame = source->Next();
+      if (!frame) break;
+      counts.lost += frame->num_lost;
+      if (options.seconds > 0.0 && frame->time_s >= options.seconds) break;
+      ++counts.frames;
+      if (video) video->Add(*frame);
+      session.Add(*frame);
+      take();
+    } catch (const InputError&) {
+      broken = std::current_exception();
+    }
   session.End();
   take();
   counts.seconds = Monotonic_s() - start_s;
   outputs.Close();
   if (video) video->Close();
-  Report(options, counts, outputs.latency());
+  Report(options, counts, outputs);
+  if (broken) std::rethrow_exception(broken);
   return counts.ok > 0 ? kDone : kFailed;
 }
 
@@ -219,7 +265,7 @@ CLI::App* AddTrack(CLI::App* app, Run* run) {
   command
       ->add_option("--latency-s", options->session.tracker.filter.latency_s,
                    "Wait so long for frames to come that set a pose right")
-      ->check(IsNumber(0.0, 10.0))
+      ->check(IsNumber(0.0, 0.9))
       ->capture_default_str();
   command
       ->add_option("--max-gap-s", options->session.tracker.filter.max_gap_s,

@@ -6,6 +6,7 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -14,6 +15,7 @@
 #include "lift/default_dictionary.h"
 #include "lift/dictionary_file.h"
 #include "lift/temporal/motion_codebook_file.h"
+#include "src/capture/live_frame_source.h"
 #include "src/capture/open_frame_source.h"
 #include "src/capture/paced_frame_source.h"
 #include "src/input_error.h"
@@ -61,6 +63,20 @@ std::unique_ptr<FrameSource> OpenSource(const TrackingInputs& inputs) {
   if (inputs.realtime && KindOfSource(inputs.input) != SourceKind::kCamera)
     source = std::make_unique<PacedFrameSource>(std::move(source));
   return source;
+}
+
+double FrameTime_s(const TrackingInputs& inputs, const FrameSource& source) {
+  constexpr double kShortest_s = 1e-3, kLongest_s = 1.0;
+  if (const auto* const live = dynamic_cast<const LiveFrameSource*>(&source);
+      live && live->camera().given().rate_hz > 0.0)
+    return 1.0 / live->camera().given().rate_hz;
+  const SourceKind kind = KindOfSource(inputs.input);
+  if (kind == SourceKind::kCamera) return 1.0 / inputs.device.rate_hz;
+  if (kind == SourceKind::kFolder) return 1.0 / inputs.folder_rate_hz;
+  const auto probe = OpenFrameSource(inputs.input, {.pictures = Pictures::kGrey});
+  const auto first_s = probe->Skip_s(), second_s = probe->Skip_s();
+  if (!first_s || !second_s) return 1.0 / inputs.device.rate_hz;
+  return std::clamp(*second_s - *first_s, kShortest_s, kLongest_s);
 }
 
 Camera CameraOf(const TrackingInputs& inputs, cv::Size size_px) {

@@ -42,6 +42,10 @@ TrackingModels ReadModels(const TrackingInputs& inputs);
 // Grey pictures. Throws InputError for a source that cannot be opened.
 std::unique_ptr<FrameSource> OpenSource(const TrackingInputs& inputs);
 
+// About how far apart its frames are: what the camera gave, --fps of a folder, the first two of a
+// video.
+double FrameTime_s(const TrackingInputs& inputs, const FrameSource& source);
+
 // The camera file, at the size of the pictures; without one a camera of fov_deg without
 // distortion. Throws InputError for a camera of another shape than the pictures'.
 Camera CameraOf(const TrackingInputs& inputs, cv::Size size_px);

@@ -89,7 +89,7 @@ TEST_F(TrackProgram, FollowsAFolderOfPicturesIntoFilesAndLines) {
   const Poses poses = ReadPosesJson(ScratchDir() / "run/poses.json");
   ASSERT_EQ(poses.frames.size(), static_cast<size_t>(kFrames));
   for (const FramePoses& frame : poses.frames) EXPECT_LT(Error_mm(frame), 60.0);
-  EXPECT_EQ(ReadMotion(ScratchDir() / "run/poses.bvh").frames.size(), 23U);  // 11 / 15 s at 30 Hz
+  EXPECT_EQ(ReadMotion(ScratchDir() / "run/poses.bvh").frames.size(), static_cast<size_t>(kFrames));
   EXPECT_TRUE(fs::exists(ScratchDir() / "run/angles.csv"));
   EXPECT_TRUE(fs::exists(ScratchDir() / "run/angles_sigma.csv"));
 
@@ -166,6 +166,31 @@ TEST_F(TrackProgram, WhatIsWrongIsRefusedBeforeAnythingIsWritten) {
   expect("track frames --tags tags.toml --out run --record", 3, "recorded already");
   WriteScratch("broken.toml", "family = \"tag36h11\"\n[[tag]]\nid = 1\nsize_mm = \"x\"\n");
   expect("track frames --tags broken.toml --out run", 3, "broken.toml:4");
+}
+
+TEST_F(TrackProgram, ABrokenPictureEndsTheRecordingWithTheLastGoodFrame) {
+  Render(6);
+  WriteScratch("frames/f4.png", "no picture");
+  const ProgramRun run = RunProgram(
+      "track frames --fps 15 --tags tags.toml --camera camera.yaml --out run --latency-s 0.2 "
+      "--json report.json" +
+      kModels);
+  EXPECT_EQ(run.code, 3) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("f4.png"));
+  EXPECT_EQ(ReadPosesJson(ScratchDir() / "run/poses.json").frames.size(), 4U);
+  EXPECT_THAT(FileText(ScratchDir() / "report.json"), HasSubstr("\"frames\": 4"));
+  // The motion has the pictures' rate.
+  EXPECT_NEAR(ReadMotion(ScratchDir() / "run/poses.bvh").frame_time_s, 1.0 / 15.0, 1e-6);
+}
+
+TEST_F(TrackProgram, ARecordingGoesOnWhenTheStreamsReaderEnds) {
+  Render(6);
+  const std::string command = std::string("cd ") + ScratchDir().string() + " && " +
+                              POSELIFT_PROGRAM + " track frames --tags tags.toml --camera " +
+                              "camera.yaml --stream --out run" + kModels + " 2>log | true";
+  ASSERT_EQ(std::system(command.c_str()), 0);  // NOLINT(concurrency-mt-unsafe): one thread
+  EXPECT_EQ(ReadPosesJson(ScratchDir() / "run/poses.json").frames.size(), 6U);
+  EXPECT_THAT(FileText(ScratchDir() / "log"), HasSubstr("The recording goes on"));
 }
 
 TEST_F(TrackProgram, NobodySeenIsAFailureThatTheFilesTell) {
