@@ -126,6 +126,27 @@ cv::Mat Reduced(const cv::Mat& grey) {
   return reduced;
 }
 
+// All of the board of which a part has been found: in a larger board the finder takes a part for
+// the one that is looked for. CALIB_CB_LARGER misses some that a search for their size finds.
+BoardCounts WholeBoard(const cv::Mat& reduced, BoardCounts part) {
+  const Corners whole =
+      FindCorners(reduced, part, cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_LARGER);
+  if (!whole.px.empty()) part = {whole.rows, whole.columns};
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const auto& [rows, columns] : {std::pair{1, 1}, {1, 0}, {0, 1}}) {
+      const BoardCounts larger{part.rows + rows, part.columns + columns};
+      if (std::max(larger.rows, larger.columns) > kMostCorners ||
+          FindCorners(reduced, larger, kFlags).px.empty())
+        continue;
+      part = larger;
+      grows = true;
+      break;
+    }
+  }
+  return part;
+}
+
 }  // namespace
 
 std::string Chessboard::Validate() const {
@@ -178,8 +199,10 @@ BoardAbsence ChessboardFinder::Explain(const cv::Mat& grey) {
   for (const BoardCounts& candidate : candidates) {
     if (std::min(candidate.rows, candidate.columns) < kFewestCorners) continue;
     if (FindCorners(reduced, candidate, kFlags).px.empty()) continue;
-    if (std::find(seen_.begin(), seen_.end(), candidate) == seen_.end()) seen_.push_back(candidate);
-    return {candidate};
+    const BoardCounts whole = WholeBoard(reduced, candidate);
+    if (whole == counts()) return {};
+    if (std::find(seen_.begin(), seen_.end(), whole) == seen_.end()) seen_.push_back(whole);
+    return {whole};
   }
   // Any board, of which it may see a part only.
   const Corners any = FindCorners(reduced, {kFewestCorners, kFewestCorners},
