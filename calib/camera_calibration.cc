@@ -163,8 +163,10 @@ double LargestTurn_rad(const CalibrationState& state) {
 }
 
 // Whether the views hold all parameters fast; what they do not goes into the status.
-CalibrationStatus Judge(const CalibrationState& state, bool has_covariance,
+CalibrationStatus Judge(const CalibrationState& state, double rms_px, bool has_covariance,
                         const CameraParameters& sigma, const CalibrationOptions& options) {
+  const int larger_side_px = std::max(state.camera.width_px, state.camera.height_px);
+  if (rms_px > options.largest_rms * larger_side_px) return CalibrationStatus::kBoardMisfits;
   if (LargestTurn_rad(state) < options.least_turn_rad) return CalibrationStatus::kViewsParallel;
   const double focal_sigma = std::max(sigma[0] / state.camera.fx_px, sigma[1] / state.camera.fy_px);
   if (!has_covariance || !(focal_sigma <= options.largest_focal_sigma))
@@ -222,8 +224,10 @@ std::string CalibrationOptions::Validate() const {
     return fmt::format("fewest_views: found {}, wanted 2 or more", fewest_views);
   if (!(bad_view_ratio > 1.0))
     return fmt::format("bad_view_ratio: found {:g}, wanted more than 1", bad_view_ratio);
-  if (!(least_bad_view_px >= 0.0 && least_turn_rad >= 0.0 && largest_focal_sigma > 0.0))
-    return "least_bad_view_px, least_turn_rad, largest_focal_sigma: wanted none below 0";
+  if (!(least_bad_view_px >= 0.0 && least_turn_rad >= 0.0 && largest_focal_sigma > 0.0 &&
+        largest_rms > 0.0))
+    return "least_bad_view_px, least_turn_rad, largest_focal_sigma, largest_rms: wanted none below "
+           "0";
   return {};
 }
 
@@ -249,6 +253,12 @@ std::string CalibrationResult::BriefReport() const {
           "the views leave the focal length open ({:.4g} ± {:.2g} px); tilt the board by 30 to 45 "
           "degrees, hold it nearer, and use more views",
           camera.fx_px, sigma[0]);
+    case CalibrationStatus::kBoardMisfits:
+      return fmt::format(
+          "the corners lie {:.1f} px rms off where a board as said would have them: measure its "
+          "squares, or its tags and the gaps between them; a board must be flat, and pictures be "
+          "whole, not cropped each in its own way",
+          rms_px);
     case CalibrationStatus::kFailed:
       return "no camera fits these views: is it the board that was said, and flat?";
     case CalibrationStatus::kDone:
@@ -293,7 +303,7 @@ CalibrationResult CalibrateCamera(const CalibrationBoard& board,
   result.views.clear();
   DescribeViews(board, views, used, *state, &result);
   result.sigma = noise_px * refined.covariance.diagonal().cwiseSqrt();
-  result.status = Judge(*state, refined.has_covariance, result.sigma, options);
+  result.status = Judge(*state, result.rms_px, refined.has_covariance, result.sigma, options);
   if (result.IsUsable())
     result.view_sigma = JackknifeSigma(board, used, *state, result.lens, LossOf_px(noise_px));
   advance(1.0);

@@ -32,6 +32,7 @@ struct CalibrationOptions {
   double least_bad_view_px = 0.1;     // but not for less than this above the median
   double least_turn_rad = 0.1;        // between some two views; else they are called parallel
   double largest_focal_sigma = 0.02;  // of the focal length; else it is called not known
+  double largest_rms = 1e-3;  // of the larger side of the pictures; else the board is another
 
   // What is wrong, with its value; empty when nothing is.
   std::string Validate() const;
@@ -43,6 +44,7 @@ enum class CalibrationStatus {
   kTooFewViews,
   kViewsParallel,  // the focal length and the board's distance cannot be told apart
   kFocalUnknown,   // the focal length is open by more than largest_focal_sigma
+  kBoardMisfits,   // the views fit, but by more than largest_rms
   kFailed,         // no camera fits the views
 };
 

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "calib/april_grid.h"
+#include "calib/april_grid_finder.h"
 #include "calib/chessboard.h"
 #include "tests/support/planted_board_views.h"
 #include "tests/support/support.h"
@@ -171,6 +172,22 @@ TEST(CameraCalibration, HardlyTiltedViewsLeaveTheFocalLengthOpen) {
   const CalibrationResult result =
       CalibrateCamera(Chess(), planted.views, kSize_px, {.least_turn_rad = 0.0});
   EXPECT_EQ(result.status, CalibrationStatus::kFocalUnknown) << result.BriefReport();
+}
+
+TEST(CameraCalibration, GapsOfAnotherBoardAreSaid) {
+  auto rng = TestRng();
+  const AprilGrid grid{.rows = 5, .columns = 7, .tag_size_m = 0.03, .spacing = 0.3};
+  const auto planted =
+      PlantBoardViews(AprilGridFinder(grid).board(), Webcam(), {.num_views = 12}, &rng);
+  for (const double said : {0.2, 0.5}) {
+    AprilGrid wrong = grid;
+    wrong.spacing = said;
+    const CalibrationResult result =
+        CalibrateCamera(AprilGridFinder(wrong).board(), planted.views, kSize_px);
+    EXPECT_EQ(result.status, CalibrationStatus::kBoardMisfits) << result.BriefReport();
+    EXPECT_THAT(result.BriefReport(), HasSubstr("gaps"));
+  }
+  EXPECT_TRUE(CalibrateCamera(AprilGridFinder(grid).board(), planted.views, kSize_px).IsUsable());
 }
 
 TEST(CameraCalibration, TooFewViewsAreSaid) {
