@@ -4,6 +4,7 @@
 // Real pictures of a made-up standing person; colours are counted by panel.
 #include "src/draw/pose_view.h"
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -88,6 +89,18 @@ TEST(PoseView, SubjectsLeftIsAtTheRightOfTheFrontAndOfAbove) {
     EXPECT_GT(left.pixels, 100) << panel;
     EXPECT_GT(right.pixels, 100) << panel;
     EXPECT_GT(left.x_px, right.x_px + 20) << panel;
+  }
+}
+
+TEST(PoseView, SubjectsLeftIsAtTheLeftFromBehind) {
+  for (const double yaw_rad : {0.0, std::acos(-1.0)}) {
+    cv::Mat sheet(2 * kPanel_px, 2 * kPanel_px, CV_8UC3, cv::Scalar::all(255));
+    DrawPoseFrom({Standing()}, {.yaw_rad = yaw_rad, .pitch_rad = 0.3}, kPanel_px)
+        .copyTo(sheet(cv::Rect(0, 0, kPanel_px, kPanel_px)));
+    const Count left = CountColour(sheet, 0, true), right = CountColour(sheet, 0, false);
+    EXPECT_GT(left.pixels, 100);
+    EXPECT_GT(right.pixels, 100);
+    EXPECT_EQ(left.x_px > right.x_px, yaw_rad == 0.0);
   }
 }
 

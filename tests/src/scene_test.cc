@@ -5,6 +5,7 @@
 #include "src/draw/scene.h"
 
 #include <Eigen/LU>
+#include <cmath>
 #include <limits>
 
 #include "tests/support/support.h"
@@ -50,6 +51,18 @@ TEST(Scene, ViewsOfALevelCameraLookWhereTheirNamesSay) {
   EXPECT_GT(Step(views[3], right).x(), 0.5);
   EXPECT_GT(Step(views[3], forward).x(), 0.5);
   EXPECT_LT(Step(views[3], right).z(), 0.0);  // the camera's right is nearer
+}
+
+TEST(Scene, AnOrbitPassesTheStandardViews) {
+  auto rng = testing::TestRng();
+  const Scene level = MakeScene(RandomPose(&rng, 0.5), {}, -Vector3d::UnitY());
+  const std::vector<View> views = StandardViews(level);
+  const double quarter_rad = std::acos(0.0);
+  EXPECT_TRUE(MatrixNear(OrbitView(level, 0.0, 0.0).view_from_cam, views[0].view_from_cam, 1e-12));
+  EXPECT_TRUE(
+      MatrixNear(OrbitView(level, quarter_rad, 0.0).view_from_cam, views[1].view_from_cam, 1e-12));
+  EXPECT_TRUE(
+      MatrixNear(OrbitView(level, 0.0, quarter_rad).view_from_cam, views[2].view_from_cam, 1e-12));
 }
 
 TEST(Scene, ViewsAreRotationsForAnyUp) {

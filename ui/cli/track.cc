@@ -176,12 +176,11 @@ void Report(const Options& options, const Counts& counts, const Outputs& outputs
     fmt::print(options.stream ? stderr : stdout, "results in {}\n", options.out);
   if (!options.json.empty())
     WriteFileAtomically(options.json, Facts(options, counts, outputs).dump(2) + "\n");
-  if (counts.ok == 0)
-    fmt::print(
-        stderr,
-        "poselift: found nobody: are these the tags of {}, their family {}? `poselift doctor` "
-        "tells of the pictures\n",
-        options.tags, ReadBodyTags(options.tags).family);
+  if (counts.frames > 0 && counts.ok == 0)
+    fmt::print(stderr,
+               "poselift: found nobody: are these the tags of {} and of its family? `poselift "
+               "doctor` tells of the pictures\n",
+               options.tags);
 }
 
 // What the camera was asked for and what it gave; its raw video when it is wanted.
