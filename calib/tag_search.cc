@@ -121,14 +121,15 @@ std::vector<TagDetection> TagSearch::Detect(const cv::Mat& grey,
   std::vector<TagDetection> found;
   last_look_ = to_full_ == 0 ? Look::kFull : Look::kRegions;
   if (last_look_ == Look::kFull) {
-    found = DetectInWhole(grey, &at_full_);
+    found = DetectInStrips(grey, &at_full_);
+    if (options_.threads > 1) found = Together({found, coarse_.Detect(grey)});
   } else {
     found = Together(DetectInEach(grey, Regions(grey.size(), predicted_px), &at_full_));
     if (to_glance_ == 0 || IsOneMissing(found)) last_look_ = Look::kGlance;
   }
   if (last_look_ == Look::kGlance) {
     // Lower resolution loses small tags that their regions show: keep both.
-    found = Together({found, DetectInWhole(grey, &at_glance_)});
+    found = Together({found, DetectInStrips(grey, &at_glance_)});
   }
   to_full_ = (to_full_ == 0 ? options_.full_every : to_full_) - 1;
   to_glance_ = (last_look_ != Look::kRegions ? options_.glance_every : to_glance_) - 1;
@@ -169,9 +170,9 @@ bool TagSearch::IsOneMissing(const std::vector<TagDetection>& found) const {
 }
 
 // In strips that overlap, one a thread. What is on the rim of a strip is whole in the next one,
-// or so large that it is found at low resolution.
-std::vector<TagDetection> TagSearch::DetectInWhole(const cv::Mat& grey,
-                                                   std::vector<TagDetector>* detectors) {
+// or so large that only the coarse look at a whole frame finds it.
+std::vector<TagDetection> TagSearch::DetectInStrips(const cv::Mat& grey,
+                                                    std::vector<TagDetector>* detectors) {
   const int count = static_cast<int>(detectors->size());
   if (count == 1 || grey.rows < count * 2 * kOverlap_px) return detectors->front().Detect(grey);
   std::vector<cv::Rect> strips;
@@ -190,7 +191,6 @@ std::vector<TagDetection> TagSearch::DetectInWhole(const cv::Mat& grey,
       return y_px.minCoeff() < first || y_px.maxCoeff() > last;
     });
   }
-  found_in.push_back(coarse_.Detect(grey));
   return Together(found_in);
 }
 

@@ -20,7 +20,7 @@ struct TagSearchOptions {
   int glance_every = 3, full_every = 30;  // 1: always
   // A region reaches around predicted corners by this part of the tag's longest side, and by
   // min_margin_px at least.
-  double margin = 0.75;
+  double margin = 0.5;
   double min_margin_px = 24.0;
   // A tag that was seen and is not found in its region brings a glance at once; after so
   // many frames in a row without it, it is given up and waits for the next whole frame.
@@ -56,7 +56,8 @@ class TagSearch {
   std::vector<cv::Rect> Regions(const cv::Size& size,
                                 const std::map<int, Corners>& predicted_px) const;
   bool IsOneMissing(const std::vector<TagDetection>& found) const;
-  std::vector<TagDetection> DetectInWhole(const cv::Mat& grey, std::vector<TagDetector>* detectors);
+  std::vector<TagDetection> DetectInStrips(const cv::Mat& grey,
+                                           std::vector<TagDetector>* detectors);
   void Remember(const std::vector<TagDetection>& found);
 
   TagSearchOptions options_;
