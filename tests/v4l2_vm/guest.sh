@@ -309,6 +309,41 @@ check_tags_are_tracked() {
     stream=nb_read_frames -of csv=p=0 run/video.mkv | tr -d ,) == frames))
 }
 
+check_a_camera_is_examined() {
+  control gain_automatic=1
+  "$poselift" doctor $camera --size 640x480 --rate 25 --seconds 2 --json doctor.json >out 2>err
+  has "asked for +640x480 .*25 Hz"
+  has "given +640x480 .*25 Hz"
+  has 'YUYV' doctor.json
+  has '"gain": ' doctor.json
+  "$poselift" doctor >out 2>err
+  has "^$camera: vivid"
+  has "^$loopback: loop"
+}
+
+# What came before is whole.
+check_an_unplugged_camera_ends_a_recording() {
+  "$poselift" track $camera --size 320x180 --rate 15 --tags "$clip/tags.toml" --record \
+    --out gone --json report.json >out 2>err &
+  background=$!
+  for _ in {1..400}; do
+    [[ -e gone/video.mkv && $(stat -c %s gone/video.mkv) -gt 1000000 ]] && break
+    kill -0 $background
+    sleep 0.1
+  done
+  echo vivid.0 >/sys/bus/platform/drivers/vivid/unbind
+  ended
+  echo vivid.0 >/sys/bus/platform/drivers/vivid/bind
+  ((code != 0))
+  has "$camera: is gone: unplugged" err
+  local frames
+  frames=$(sed -n 's/^ *"frames": \([0-9]*\),$/\1/p' report.json)
+  ((frames > 5))
+  (($(grep -c '"people"' gone/poses.json) >= 1))
+  (($(ffprobe -loglevel error -count_frames -select_streams v -show_entries \
+    stream=nb_read_frames -of csv=p=0 gone/video.mkv | tr -d ,) == frames))
+}
+
 # A board that is held still for some frames in each of its views.
 check_a_camera_is_calibrated() {
   local held=() picture
@@ -339,7 +374,9 @@ check a format that another program set is set anew
 check controls are listed and set
 check permission denied is told
 check what is no camera is told
+check a camera is examined
 check an unplugged camera is told
+check an unplugged camera ends a recording
 check a camera that disconnects is told
 check MJPG streams from ffmpeg
 check damaged MJPG is told frame by frame
