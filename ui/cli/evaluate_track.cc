@@ -33,6 +33,7 @@ namespace poselift::cli {
 namespace {
 
 constexpr double kFrameTime_s = 1.0 / 30.0;
+constexpr double kWeakFov_deg = 1.0;  // from 250 m away
 
 // A trial that is tracked, and the movements its tags are fitted on.
 struct Test {
@@ -119,10 +120,13 @@ std::vector<Row> RunTest(const Test& test, const PhotoLifter& lifter,
                          const Options& options, Videos* videos) {
   const Videos::Video& video = videos->Of(test.trial);
   const BodyTags& said = video.dress.said;
-  TrackingInputs guessed;
-  guessed.fov_deg = options.experiment.fov_deg;
   const Camera& known = video.tagged.camera;
-  const Camera guess = CameraOf(guessed, {known.width_px, known.height_px});
+  const auto that_sees = [&](double fov_deg) {
+    TrackingInputs guessed;
+    guessed.fov_deg = fov_deg;
+    return CameraOf(guessed, {known.width_px, known.height_px});
+  };
+  const Camera guess = that_sees(options.experiment.fov_deg), weak = that_sees(kWeakFov_deg);
   std::vector<const TaggedVideo*> fit_videos;
   for (const std::string& trial : test.fitted_on) fit_videos.push_back(&videos->Of(trial).tagged);
 
@@ -144,6 +148,7 @@ std::vector<Row> RunTest(const Test& test, const PhotoLifter& lifter,
   fit("camera known, tags fitted", known, false);
   fit("camera found, tags fitted", guess, true);
   fit("camera guessed, tags fitted", guess, false);
+  fit("weak perspective, tags fitted", weak, false);
   return rows;
 }
 
@@ -152,12 +157,12 @@ std::string Degrees(double rms_deg) {
 }
 
 void Print(const std::vector<Row>& rows) {
-  fmt::print("{:28} {:8} {:6} {:>10} {:>7} {:>7} {:>10} {:>10} {:>6} {:>8} {:>9} {:>9}\n", "method",
+  fmt::print("{:30} {:8} {:6} {:>10} {:>7} {:>7} {:>10} {:>10} {:>6} {:>8} {:>9} {:>9}\n", "method",
              "action", "trial", "visible mm", "all mm", "sure", "elbows deg", "knees deg", "flips",
              "unknown", "detected", "in whole");
   for (const auto& [method, action, trial, whole_share, errors] : rows)
     fmt::print(
-        "{:28} {:8} {:6} {:10.1f} {:7.1f} {:5.0f} % {:>10} {:>10} {:6} {:8} {:7.1f} % {:7.1f} %\n",
+        "{:30} {:8} {:6} {:10.1f} {:7.1f} {:5.0f} % {:>10} {:>10} {:6} {:8} {:7.1f} % {:7.1f} %\n",
         method, action, trial, errors.visible_mm, errors.all_mm, 100.0 * errors.sure_share,
         Degrees(errors.elbows_deg), Degrees(errors.knees_deg), errors.num_flips, errors.num_unknown,
         100.0 * errors.detected_share, 100.0 * whole_share);

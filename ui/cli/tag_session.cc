@@ -7,7 +7,6 @@
 #include "calib/tag_pose.h"
 #include "lift/poses_to_motion.h"
 #include "lift/tracking/person_skeleton.h"
-#include "src/level_camera.h"
 
 namespace poselift::cli {
 namespace {
@@ -28,9 +27,9 @@ TagSession::TagSession(const BodyTags& tags, const Camera& camera, const PhotoLi
       camera_(camera),
       skeleton_(PersonSkeleton(lifter.dictionary().skeleton, tags)),
       search_(TagFamily(tags.family), ForPerson(options.search, tags)),
-      tracker_(skeleton_, tags, camera, kLevelFromCam, lifter, std::move(codebook),
+      tracker_(skeleton_, tags, camera, options.cam_from_world, lifter, std::move(codebook),
                options.tracker),
-      person_(skeleton_, camera, kLevelFromCam) {}
+      person_(skeleton_, camera, options.cam_from_world) {}
 
 void TagSession::Add(const VideoFrame& frame) {
   std::map<int, TagSearch::Corners> predicted_px;

@@ -12,6 +12,7 @@
 #include "lift/tracking/tag_tracker.h"
 #include "lift/tracking/tracked_person.h"
 #include "src/io/frame_source.h"
+#include "src/level_camera.h"
 #include "src/poses.h"
 
 namespace poselift::cli {
@@ -19,6 +20,7 @@ namespace poselift::cli {
 struct TagSessionOptions {
   TagSearchOptions search;
   TagTrackerOptions tracker;
+  Eigen::Quaterniond cam_from_world = kLevelFromCam;  // a rotation
 };
 
 // The flow from pictures to poses of a person who wears tags: detected, posed, tracked.
@@ -31,7 +33,7 @@ class TagSession {
     std::vector<int> tag_ids;          // of the person's, in the frame
   };
 
-  // camera: level. lifter must outlive this. Throws InputError as TagDetector and
+  // lifter must outlive this. Throws InputError as TagDetector and
   // TagTracker do.
   TagSession(const BodyTags& tags, const Camera& camera, const PhotoLifter& lifter,
              std::shared_ptr<const MotionCodebook> codebook, const TagSessionOptions& options);

@@ -20,7 +20,6 @@
 #include "src/io/atomic_file.h"
 #include "src/io/body_tags_toml.h"
 #include "src/io/camera_yaml.h"
-#include "src/level_camera.h"
 #include "ui/cli/frame_rate.h"
 #include "ui/cli/progress.h"
 #include "ui/cli/tag_session.h"
@@ -110,8 +109,8 @@ int Fit(Options options) {
   const Camera camera = CameraOf(options.inputs, source->size_px());
   const std::vector<SightedFrame> frames = Sight(tags, options, source.get(), camera);
   Progress progress("fit");
-  const TagFit fit = FitTags(frames, tags, camera, kLevelFromCam, lifter, models.codebook,
-                             options.fit, progress.Callback());
+  const TagFit fit = FitTags(frames, tags, camera, CamFromWorld(options.inputs), lifter,
+                             models.codebook, options.fit, progress.Callback());
   if (!fit.is_usable) {
     fmt::print(stderr, "poselift: {}: {}\n", options.inputs.input, fit.message);
     return kFailed;

@@ -183,6 +183,17 @@ void Report(const Options& options, const Counts& counts, const Outputs& outputs
                options.tags);
 }
 
+// What is only assumed.
+void TellAssumptions(const TrackingInputs& inputs) {
+  if (inputs.camera.empty())
+    fmt::print(stderr,
+               "camera: nobody calibrated it, so it is taken for one that sees {:g} degrees "
+               "(--fov-deg); `poselift calibrate` measures it, `tags fit` finds it roughly\n",
+               inputs.fov_deg);
+  if (inputs.pitch_deg == 0.0 && inputs.roll_deg == 0.0)
+    fmt::print(stderr, "camera: taken for level (--pitch-deg, --roll-deg)\n");
+}
+
 // What the camera was asked for and what it gave; its raw video when it is wanted.
 std::optional<TrackVideo> StartVideo(const Options& options, const FrameSource& source) {
   const auto* const live = dynamic_cast<const LiveFrameSource*>(&source);
@@ -204,7 +215,9 @@ int Track(Options options) {
   const PhotoLifter lifter(models.dictionary);
   const std::unique_ptr<FrameSource> source = OpenSource(options.inputs);
   const Camera camera = CameraOf(options.inputs, source->size_px());
+  options.session.cam_from_world = CamFromWorld(options.inputs);
   TagSession session(tags, camera, lifter, models.codebook, options.session);
+  TellAssumptions(options.inputs);
   std::optional<TrackVideo> video = StartVideo(options, *source);
   Outputs outputs(options, session.skeleton(), FrameTime_s(options.inputs, *source));
   stop_asked = false;

@@ -20,6 +20,7 @@
 #include "src/capture/paced_frame_source.h"
 #include "src/input_error.h"
 #include "src/io/camera_file.h"
+#include "src/level_camera.h"
 #include "ui/cli/frame_rate.h"
 
 namespace poselift::cli {
@@ -33,8 +34,19 @@ void AddTrackingInputs(CLI::App* command, TrackingInputs* inputs) {
                       "Calibrated camera (see poselift calibrate); without one --fov-deg is taken");
   command
       ->add_option("--fov-deg", inputs->fov_deg,
-                   "How wide a camera sees that nobody calibrated, horizontally, in degrees")
+                   "How wide a camera sees that nobody calibrated, horizontally, in degrees; 1 is "
+                   "weak perspective")
       ->check(IsNumber(1.0, 170.0))
+      ->capture_default_str();
+  command
+      ->add_option("--pitch-deg", inputs->pitch_deg,
+                   "How far the camera looks down, so that who stands is upright")
+      ->check(IsNumber(-90.0, 90.0))
+      ->capture_default_str();
+  command
+      ->add_option("--roll-deg", inputs->roll_deg,
+                   "How far the camera leans to its right, as seen from behind it")
+      ->check(IsNumber(-180.0, 180.0))
       ->capture_default_str();
   AddCameraOptions(command, &inputs->device);
   command->add_option("--fps", inputs->folder_rate_hz, "Folder: pictures a second")
@@ -104,6 +116,12 @@ Camera CameraOf(const TrackingInputs& inputs, cv::Size size_px) {
   camera.width_px = size_px.width;
   camera.height_px = size_px.height;
   return camera;
+}
+
+Eigen::Quaterniond CamFromWorld(const TrackingInputs& inputs) {
+  constexpr double kRad = std::numbers::pi / 180.0;
+  return Eigen::AngleAxisd(-kRad * inputs.roll_deg, Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(kRad * inputs.pitch_deg, Eigen::Vector3d::UnitX()) * kLevelFromCam;
 }
 
 }  // namespace poselift::cli

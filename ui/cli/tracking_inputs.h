@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the poselift authors
 #pragma once
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <opencv2/core/types.hpp>
 #include <string>
@@ -22,7 +23,8 @@ namespace poselift::cli {
 struct TrackingInputs {
   std::string input;
   std::string camera;
-  double fov_deg = 60.0;  // horizontal, of a camera that nobody calibrated
+  double fov_deg = 60.0;                   // horizontal, of a camera that nobody calibrated
+  double pitch_deg = 0.0, roll_deg = 0.0;  // how the camera leans: down, and clockwise
   CameraChoice device;
   double folder_rate_hz = 30.0;
   bool realtime = false;
@@ -49,5 +51,8 @@ double FrameTime_s(const TrackingInputs& inputs, const FrameSource& source);
 // The camera file, at the size of the pictures; without one a camera of fov_deg without
 // distortion. Throws InputError for a camera of another shape than the pictures'.
 Camera CameraOf(const TrackingInputs& inputs, cv::Size size_px);
+
+// How the camera stands, in a world whose y is up.
+Eigen::Quaterniond CamFromWorld(const TrackingInputs& inputs);
 
 }  // namespace poselift::cli

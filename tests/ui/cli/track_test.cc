@@ -49,14 +49,14 @@ class TrackProgram : public ::testing::Test {
     WriteCameraYaml(person_.camera, ScratchDir() / "camera.yaml");
   }
 
-  void Render(int num_frames) const {
+  void Render(int num_frames, const Eigen::Quaterniond& cam_from_world = kLevelFromCam) const {
     const TagFamily family(person_.worn.family);
     const testing::BodyRenderer renderer(
         person_.skeleton, person_.worn,
         [&](int id) {
           return testing::TagPrint{family.Image(id), family.cells_of_size()};
         },
-        person_.camera, Eigen::Isometry3d(kLevelFromCam), {.noise_grey_levels = 2.0});
+        person_.camera, Eigen::Isometry3d(cam_from_world), {.noise_grey_levels = 2.0});
     fs::create_directories(ScratchDir() / "frames");
     for (int f = 0; f < num_frames; ++f) {
       const auto frame = renderer.Render([&](double t) { return person_.PoseAt(t); }, f / kRate_hz);
@@ -113,6 +113,32 @@ TEST_F(TrackProgram, WithoutACameraItTakesAFieldOfView) {
   ASSERT_EQ(run.code, 0) << run.err;
   for (const FramePoses& frame : ReadPosesJson(ScratchDir() / "run/poses.json").frames)
     EXPECT_LT(Error_mm(frame), 80.0);
+}
+
+// Over the person, who is then upright all the same.
+TEST_F(TrackProgram, ACameraMayLookDown) {
+  constexpr double kPitch_deg = 15.0;
+  Render(5, Eigen::AngleAxisd(kPitch_deg * EIGEN_PI / 180.0, Eigen::Vector3d::UnitX()) *
+                kLevelFromCam);
+  for (const double said_deg : {0.0, kPitch_deg}) {
+    const ProgramRun run = RunProgram(
+        fmt::format("track frames --fps 15 --camera camera.yaml --tags tags.toml --out run{0} "
+                    "--pitch-deg {0}",
+                    said_deg) +
+        kModels);
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.err.find("taken for level") == std::string::npos, said_deg != 0.0) << run.err;
+    const Motion motion = ReadMotion(ScratchDir() / fmt::format("run{}/poses.bvh", said_deg));
+    for (size_t f = 0; f < motion.frames.size(); ++f) {
+      const Eigen::Vector3d up = Eigen::Vector3d::UnitY();
+      const double off_deg =
+          std::acos(
+              (motion.frames[f].world_from_root * up)
+                  .dot(person_.PoseAt(static_cast<double>(f) / kRate_hz).world_from_root * up)) *
+          180.0 / EIGEN_PI;
+      EXPECT_NEAR(off_deg, kPitch_deg - said_deg, 5.0);
+    }
+  }
 }
 
 TEST_F(TrackProgram, FitsTagsThatTrackThenReads) {
