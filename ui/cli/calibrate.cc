@@ -211,6 +211,7 @@ CLI::App* AddCalibrate(CLI::App* app, Run* run) {
   command->add_option("--seconds", options->views.seconds, "Camera: watch it for at most so long")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  AddCameraOptions(command, &options->views.device);
   command
       ->add_option("--max-views", options->views.chooser.most_views,
                    "Video and camera: use at most")

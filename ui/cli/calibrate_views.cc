@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -19,6 +18,7 @@
 #include "src/io/image.h"
 #include "src/io/image_folder.h"
 #include "src/io/video.h"
+#include "ui/cli/interrupt.h"
 #include "ui/cli/progress.h"
 
 namespace poselift::cli {
@@ -161,20 +161,6 @@ SurveyedViews SurveyVideo(const std::string& path, const ViewsOptions& options,
   return Chosen(chooser, absences, video.size_px(), finder);
 }
 
-volatile std::sig_atomic_t interrupted = 0;
-
-// Ends the loop over a camera, not the program, as long as it lives.
-class Interrupt {
- public:
-  Interrupt() : before_(std::signal(SIGINT, [](int) { interrupted = 1; })) {}
-  ~Interrupt() { std::signal(SIGINT, before_); }
-  Interrupt(const Interrupt&) = delete;
-  Interrupt& operator=(const Interrupt&) = delete;
-
- private:
-  void (*before_)(int);
-};
-
 CalibrationCoverage CoverageSoFar(const ViewChooser& chooser, const BoardFinder& finder,
                                   cv::Size size_px) {
   std::vector<const BoardView*> views;
@@ -193,13 +179,16 @@ void TellCoverage(const CalibrationCoverage& coverage, double time_s) {
 
 SurveyedViews SurveyCamera(const std::string& name, const ViewsOptions& options,
                            BoardFinder* finder) {
-  const auto camera = OpenFrameSource(name, {.pictures = Pictures::kGrey});
+  FrameSourceOptions opening{.pictures = Pictures::kGrey};
+  opening.live.camera = options.device.Options();
+  const auto camera = OpenFrameSource(name, opening);
+  TellCamera(*camera);
   const Interrupt interrupt;
   ViewChooser chooser(camera->size_px(), options.chooser);
   Absences absences;
   CalibrationCoverage coverage = CoverageSoFar(chooser, *finder, camera->size_px());
   TellCoverage(coverage, 0.0);
-  while (!interrupted && !coverage.hints.empty()) {
+  while (!interrupt.asked() && !coverage.hints.empty()) {
     const auto frame = camera->Next();
     if (!frame || frame->time_s > options.seconds) break;
     const BoardView view = finder->Find(frame->grey);

@@ -9,12 +9,14 @@
 #include "calib/board_survey.h"
 #include "calib/calibration_board.h"
 #include "calib/view_chooser.h"
+#include "ui/cli/camera_options.h"
 
 namespace poselift::cli {
 
 struct ViewsOptions {
   double every_s = 0.25;   // of a video: time between frames that are looked at
   double seconds = 120.0;  // of a camera: at most
+  CameraChoice device;
   ViewChooserOptions chooser;
 };
 

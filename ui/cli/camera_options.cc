@@ -2,13 +2,17 @@
 // Copyright (c) 2026 the poselift authors
 #include "ui/cli/camera_options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <charconv>
 #include <functional>
 
+#include "src/capture/camera_formats.h"
 #include "src/capture/fourcc.h"
+#include "src/capture/live_frame_source.h"
 #include "src/input_error.h"
 #include "ui/cli/frame_rate.h"
 
@@ -54,6 +58,16 @@ CameraOptions CameraChoice::Options() const {
   options.wanted = {format.empty() ? 0 : ParseFormat(format), ParseSize(size), rate_hz};
   for (const std::string& control : controls) options.controls.push_back(ParseControl(control));
   return options;
+}
+
+void TellCamera(const FrameSource& source) {
+  const auto* const live = dynamic_cast<const LiveFrameSource*>(&source);
+  if (!live) return;
+  fmt::print(stderr, "camera: asked for {}, got {}\n", ModeText(live->camera().asked()),
+             ModeText(live->camera().given()));
+  for (const ControlSetting& control : live->camera().controls())
+    fmt::print(stderr, "camera: {} asked for {}, got {}\n", control.name, control.asked,
+               control.given);
 }
 
 void AddCameraOptions(CLI::App* command, CameraChoice* choice) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/capture/camera_stream.h"
+#include "src/io/frame_source.h"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the name of CLI11
 class App;
@@ -26,5 +27,8 @@ struct CameraChoice {
 
 // --size, --rate, --format and --set.
 void AddCameraOptions(CLI::App* command, CameraChoice* choice);
+
+// On stderr, of a camera: what it was asked for and what it gave.
+void TellCamera(const FrameSource& source);
 
 }  // namespace poselift::cli

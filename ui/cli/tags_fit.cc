@@ -17,10 +17,12 @@
 
 #include "calib/tag_search.h"
 #include "lift/tracking/tag_fit.h"
+#include "src/capture/open_frame_source.h"
 #include "src/io/atomic_file.h"
 #include "src/io/body_tags_toml.h"
 #include "src/io/camera_yaml.h"
 #include "ui/cli/frame_rate.h"
+#include "ui/cli/interrupt.h"
 #include "ui/cli/progress.h"
 #include "ui/cli/tag_session.h"
 #include "ui/cli/tags.h"
@@ -35,9 +37,16 @@ using Json = nlohmann::ordered_json;
 struct Options {
   TrackingInputs inputs;
   std::string tags, out, camera_out, json;
-  double seconds = 60.0;
+  double seconds = 0.0;  // 0: those of LongestMovement_s
   TagFitOptions fit;
 };
+
+// A file is as long as it is.
+double LongestMovement_s(const Options& options) {
+  constexpr double kCamera_s = 30.0, kFile_s = 600.0;
+  if (options.seconds > 0.0) return options.seconds;
+  return KindOfSource(options.inputs.input) == SourceKind::kCamera ? kCamera_s : kFile_s;
+}
 
 std::vector<SightedFrame> Sight(const BodyTags& tags, const Options& options, FrameSource* source,
                                 const Camera& camera) {
@@ -46,10 +55,13 @@ std::vector<SightedFrame> Sight(const BodyTags& tags, const Options& options, Fr
   TagSearch search(TagFamily(tags.family), searching);
   Progress progress("look for tags", 0, "frames");
   std::vector<SightedFrame> frames;
-  while (const auto frame = source->Next()) {
-    if (frame->time_s >= options.seconds) break;
+  const double longest_s = LongestMovement_s(options);
+  const Interrupt interrupt;  // what was seen is fitted
+  while (!interrupt.asked()) {
+    const auto frame = source->Next();
+    if (!frame || frame->time_s >= longest_s) break;
     frames.push_back({frame->time_s, SightTags(search.Detect(frame->grey), tags, camera)});
-    progress.Advance(frame->time_s / options.seconds);
+    progress.Advance(frame->time_s / longest_s);
   }
   return frames;
 }
@@ -101,11 +113,13 @@ void WriteJson(const TagFit& fit, const Options& options) {
 
 int Fit(Options options) {
   PrepareFolderOf(options.out);
+  if (!options.camera_out.empty()) PrepareFolderOf(options.camera_out);
   options.fit.finds_lens = options.inputs.camera.empty();
   const BodyTags tags = ReadBodyTags(options.tags);
   const TrackingModels models = ReadModels(options.inputs);
   const PhotoLifter lifter(models.dictionary);
   const auto source = OpenSource(options.inputs);
+  TellCamera(*source);
   const Camera camera = CameraOf(options.inputs, source->size_px());
   const std::vector<SightedFrame> frames = Sight(tags, options, source.get(), camera);
   Progress progress("fit");
@@ -146,9 +160,11 @@ CLI::App* AddTagsFit(CLI::App* tags, Run* run) {
   command->add_option("--out", options->out, "The tags file to write")->required();
   command->add_option("--camera-out", options->camera_out,
                       "Without --camera: the camera file to write (default: beside --out)");
-  command->add_option("--seconds", options->seconds, "Of the movement")
-      ->check(IsNumber(1.0, 600.0))
-      ->capture_default_str();
+  command
+      ->add_option("--seconds", options->seconds,
+                   "Of the movement (default: 30 of a camera, all of a file); "
+                   "Ctrl-C ends it and fits")
+      ->check(IsNumber(1.0, 600.0));
   command->add_option("--frames", options->fit.num_frames, "That are adjusted together")
       ->check(CLI::Range(10, 1000))
       ->capture_default_str();

@@ -10,7 +10,6 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
-#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -29,6 +28,7 @@
 #include "src/io/udp_lines.h"
 #include "ui/cli/command.h"
 #include "ui/cli/frame_rate.h"
+#include "ui/cli/interrupt.h"
 #include "ui/cli/latency_meter.h"
 #include "ui/cli/tag_session.h"
 #include "ui/cli/track_recording.h"
@@ -53,10 +53,6 @@ struct Options {
   bool record = false;
   std::optional<double> before_s;  // the video begins so long before somebody is seen
 };
-
-// Set by a signal: the recording is closed as it should be.
-std::atomic<bool> stop_asked = false;  // NOLINT(readability-identifier-naming): a variable
-static_assert(std::atomic<bool>::is_always_lock_free);
 
 double Monotonic_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -194,13 +190,10 @@ void TellAssumptions(const TrackingInputs& inputs) {
     fmt::print(stderr, "camera: taken for level (--pitch-deg, --roll-deg)\n");
 }
 
-// What the camera was asked for and what it gave; its raw video when it is wanted.
+// The raw video of a camera, when it is wanted.
 std::optional<TrackVideo> StartVideo(const Options& options, const FrameSource& source) {
-  const auto* const live = dynamic_cast<const LiveFrameSource*>(&source);
-  if (live)
-    fmt::print(stderr, "camera: asked for {}, got {}\n", ModeText(live->camera().asked()),
-               ModeText(live->camera().given()));
   if (!options.record) return std::nullopt;
+  const auto* const live = dynamic_cast<const LiveFrameSource*>(&source);
   if (!live)
     throw InputError(options.inputs.input,
                      "--record: found no camera, wanted one: this video is recorded already");
@@ -218,10 +211,10 @@ int Track(Options options) {
   options.session.cam_from_world = CamFromWorld(options.inputs);
   TagSession session(tags, camera, lifter, models.codebook, options.session);
   TellAssumptions(options.inputs);
+  TellCamera(*source);
   std::optional<TrackVideo> video = StartVideo(options, *source);
   Outputs outputs(options, session.skeleton(), FrameTime_s(options.inputs, *source));
-  stop_asked = false;
-  for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { stop_asked = true; });
+  const Interrupt interrupt;  // the recording is closed as it should be
 
   Counts counts;
   const double start_s = Monotonic_s();
@@ -234,7 +227,7 @@ int Track(Options options) {
   };
   // A camera that is unplugged ends the recording with its last good frame.
   std::exception_ptr broken;
-  while (!stop_asked && !broken) try {
+  while (!interrupt.asked() && !broken) try {
       const auto frame = source->Next();
       if (!frame) break;
       counts.lost += frame->num_lost;
