@@ -112,7 +112,24 @@ void DrawRuler(cairo_t* c, double x_mm, double y_mm) {
   Text(c, x_mm, y_mm + 4.5, 3.6, kRuler_mm, "Check with a ruler: this scale is 100 mm long.");
 }
 
-// A small tag with the dimension that is meant; without its bits, or cameras would see it.
+// The axes of a tag (tag_detection.h) from its centre: x red, y green, z away from who looks.
+void DrawAxes(cairo_t* c, double x_mm, double y_mm, double length_mm) {
+  constexpr double kTip_mm = 0.8;
+  cairo_set_line_width(c, 0.3);
+  cairo_set_source_rgb(c, 0.8, 0.1, 0.1);
+  DrawLine(c, x_mm, y_mm, x_mm + length_mm, y_mm);
+  DrawLine(c, x_mm + length_mm - kTip_mm, y_mm - kTip_mm, x_mm + length_mm, y_mm);
+  DrawLine(c, x_mm + length_mm - kTip_mm, y_mm + kTip_mm, x_mm + length_mm, y_mm);
+  Text(c, x_mm + length_mm - 1.0, y_mm - 1.0, 2.6, 3.0, "x");
+  cairo_set_source_rgb(c, 0.0, 0.5, 0.1);
+  DrawLine(c, x_mm, y_mm, x_mm, y_mm + length_mm);
+  DrawLine(c, x_mm - kTip_mm, y_mm + length_mm - kTip_mm, x_mm, y_mm + length_mm);
+  DrawLine(c, x_mm + kTip_mm, y_mm + length_mm - kTip_mm, x_mm, y_mm + length_mm);
+  Text(c, x_mm + 0.8, y_mm + length_mm, 2.6, 3.0, "y");
+}
+
+// A small tag with the dimension that is meant and its axes; without its bits, or cameras would
+// see it.
 void DrawSizePicture(cairo_t* c, const TagFamily& family, double x_mm, double y_mm,
                      double width_mm) {
   constexpr double kPrint_mm = 16.0;
@@ -137,9 +154,13 @@ void DrawSizePicture(cairo_t* c, const TagFamily& family, double x_mm, double y_
   DrawLine(c, left_mm, line_mm, right_mm, line_mm);
   const double text_x_mm = x_mm + kPrint_mm + 2.0;
   const double text_width_mm = width_mm - kPrint_mm - 2.0;
-  Text(c, text_x_mm, y_mm + 4.0, 3.6, text_width_mm, "size: the edge of the");
-  Text(c, text_x_mm, y_mm + 8.5, 3.6, text_width_mm, "square between the black");
-  Text(c, text_x_mm, y_mm + 13.0, 3.6, text_width_mm, "and the white border");
+  DrawAxes(c, x_mm + 0.5 * kPrint_mm, y_mm + 0.5 * kPrint_mm, 0.5 * kPrint_mm + 1.0);
+  Grey(c, 0.0);
+  Text(c, text_x_mm, y_mm + 3.0, 3.6, text_width_mm, "size: the edge of the");
+  Text(c, text_x_mm, y_mm + 7.0, 3.6, text_width_mm, "square between the black");
+  Text(c, text_x_mm, y_mm + 11.0, 3.6, text_width_mm, "and the white border.");
+  Text(c, text_x_mm, y_mm + 15.0, 3.6, text_width_mm, "z: into the paper");
+  Text(c, text_x_mm, y_mm + 19.0, 3.0, text_width_mm, "(apriltag_ros: y up, z out)");
 }
 
 void DrawPage(cairo_t* c, const TagFamily& family, const SheetPage& page, const Paper& paper) {

@@ -2,8 +2,9 @@
 // Copyright (c) 2026 the poselift authors
 //
 // The tags.yaml of apriltag_ros: metres, a tag's y up and z out of the paper, a bundle's tags in
-// the bundle's frame.
-#include <fmt/core.h>
+// the bundle's frame. Its names are free there: `joint` or `bone` beside them, which apriltag_ros
+// passes over, says what is meant.
+#include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
@@ -78,19 +79,27 @@ class Reader {
     return tag;
   }
 
+  static std::string NoPlace(const std::string& place, const char* what, const char* beside,
+                             const std::vector<std::string>& names) {
+    return fmt::format(
+        "found the unknown {} {}, {}. Names may stay as they are with {} beside them, one of: {}",
+        what, Quoted(place), WantedPerhaps(place, names), beside, fmt::join(names, ", "));
+  }
+
   // A tag alone says nothing of where on a bone it sits.
   void ReadStandalone(const YAML::Node& map) {
     BodyTag tag = IdAndSize(map);
     tag.name = Value<std::string>(map, "name", "the name of a joint");
-    const std::optional<int> joint = FindJoint(tag.name);
+    const char* const key = map["joint"] ? "joint" : "name";
+    const auto place = Value<std::string>(map, key, "the name of a joint");
+    const std::optional<int> joint = FindJoint(place);
     if (!joint)
-      throw Error(map["name"],
-                  FindBodyBone(tag.name)
-                      ? fmt::format("found the bone {} for a tag alone, wanted a joint, or a "
-                                    "bundle of the bone's name that says where the tag sits",
-                                    Quoted(tag.name))
-                      : fmt::format("found the unknown joint {}, {}", Quoted(tag.name),
-                                    WantedPerhaps(tag.name, JointNames())));
+      throw Error(map[key], FindBodyBone(place)
+                                ? fmt::format("found the bone {} for a tag alone, wanted a joint, "
+                                              "or a bundle of the bone's name that says where the "
+                                              "tag sits",
+                                              Quoted(place))
+                                : NoPlace(place, "joint", "joint: NAME", JointNames()));
     tag.on_joint = TagOnJoint{.joint = std::string(Joints()[static_cast<size_t>(*joint)].name)};
     tags_.tags.push_back(std::move(tag));
   }
@@ -98,13 +107,14 @@ class Reader {
   // A bundle of a bone's name has the bone's frame, one of a joint's name its origin there.
   void ReadBundle(const YAML::Node& bundle) {
     const auto name = Value<std::string>(bundle, "name", "the name of a bone or a joint");
-    const std::optional<std::string> bone = FindBodyBone(name);
-    const std::optional<int> joint = FindJoint(name);
+    const char* const key = bundle["bone"] ? "bone" : bundle["joint"] ? "joint" : "name";
+    const auto place = Value<std::string>(bundle, key, "the name of a bone or a joint");
+    const std::optional<std::string> bone = FindBodyBone(place);
+    const std::optional<int> joint = FindJoint(place);
     if (!bone && !joint) {
       std::vector<std::string> names = BoneNames();
       for (const std::string& other : JointNames()) names.push_back(other);
-      throw Error(bundle["name"], fmt::format("found the unknown bone or joint {}, {}",
-                                              Quoted(name), WantedPerhaps(name, names)));
+      throw Error(bundle[key], NoPlace(place, "bone or joint", "bone: NAME or joint: NAME", names));
     }
     for (const YAML::Node& entry : Items(bundle, "layout")) {
       BodyTag tag = IdAndSize(entry);

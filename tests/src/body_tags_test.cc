@@ -229,6 +229,16 @@ TEST(BodyTagsTest, TheFileOfRosIsTurnedIntoOurFrames) {
                          1e-12));
 }
 
+TEST(BodyTagsTest, NamesOfRosAreFreeBesideAJointOrABone) {
+  std::string yaml = Replaced(kYaml, "name: left_wrist", "name: marker_1, joint: left_wrist");
+  yaml = Replaced(yaml, "name: left_shin", "name: plate\n    bone: left_shin");
+  const BodyTags tags = ReadBodyTags(WriteScratch("tags.yaml", yaml));
+  EXPECT_EQ(tags.Find(4)->name, "marker_1");
+  EXPECT_EQ(tags.Find(4)->on_joint->joint, "left_wrist");
+  EXPECT_EQ(tags.Find(7)->name, "plate");
+  EXPECT_EQ(tags.Find(7)->on_bone->bone, "ltibia");
+}
+
 TEST(BodyTagsTest, BadFilesOfRosSayWhereAndWhatIsWanted) {
   const auto after = [](const std::string& old, const std::string& with) {
     return ErrorOf(Replaced(kYaml, old, with), "tags.yaml");
@@ -237,6 +247,9 @@ TEST(BodyTagsTest, BadFilesOfRosSayWhereAndWhatIsWanted) {
               HasSubstr("tags.yaml:3: found the unknown joint \"left_rist\", wanted perhaps"));
   EXPECT_THAT(after("left_wrist", "left_shin"), HasSubstr("tags.yaml:3: found the bone"));
   EXPECT_THAT(after("name: left_shin", "name: Tisch"), HasSubstr("tags.yaml:6: found the unknown"));
+  // The names there are, and what to do.
+  EXPECT_THAT(after("left_wrist", "marker_1"), HasSubstr("joint: NAME beside them"));
+  EXPECT_THAT(after("left_wrist", "marker_1"), HasSubstr("left_knee"));
   EXPECT_THAT(after("id: 8", "id: 7"), HasSubstr("tags.yaml:9: found the tag 7 twice"));
   EXPECT_THAT(after("size: 0.08", "size: 80"), HasSubstr("tags.yaml:3: size: wanted metres"));
   EXPECT_THAT(after("qw: 1,", "qw: 2,"), HasSubstr("tags.yaml:8: "));
