@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "calib/tag_search.h"
+#include "lift/tracking/fit_check.h"
 #include "lift/tracking/tag_fit.h"
 #include "src/capture/open_frame_source.h"
 #include "src/io/atomic_file.h"
@@ -38,6 +39,7 @@ struct Options {
   TrackingInputs inputs;
   std::string tags, out, camera_out, json;
   double seconds = 0.0;  // 0: those of LongestMovement_s
+  bool is_forced = false;
   TagFitOptions fit;
 };
 
@@ -96,12 +98,10 @@ void PrintCamera(const TagFit& fit) {
              360.0 / std::numbers::pi * half_rad, fit.camera.distortion.k1);
 }
 
-void WriteJson(const TagFit& fit, const Options& options) {
-  Json json = {{"command", "tags fit"},
-               {"input", options.inputs.input},
-               {"frames", fit.num_frames},
-               {"focal_px", fit.camera.fx_px},
-               {"rows", Json::array()}};
+void WriteJson(const TagFit& fit, const std::string& flaw, const Options& options) {
+  Json json = {{"command", "tags fit"},    {"input", options.inputs.input},
+               {"frames", fit.num_frames}, {"focal_px", fit.camera.fx_px},
+               {"implausible", flaw},      {"rows", Json::array()}};
   for (const TagFitRow& row : fit.rows)
     json["rows"].push_back({{"id", row.id},
                             {"frames", row.num_frames},
@@ -129,9 +129,15 @@ int Fit(Options options) {
     fmt::print(stderr, "poselift: {}: {}\n", options.inputs.input, fit.message);
     return kFailed;
   }
-  WriteBodyTags(fit.tags, options.out);
   Print(fit, tags);
-  if (!options.json.empty()) WriteJson(fit, options);
+  const std::string flaw = ImplausibleFit(models.dictionary.skeleton, fit);
+  if (!options.json.empty()) WriteJson(fit, flaw, options);
+  if (!flaw.empty()) {
+    fmt::print(stderr, "poselift: {}: {}{}\n", options.tags, flaw,
+               options.is_forced ? "" : ". Nothing is written; --force writes it all the same");
+    if (!options.is_forced) return kFailed;
+  }
+  WriteBodyTags(fit.tags, options.out);
   fmt::print("{} frames adjusted together; tags in {}\n", fit.num_frames, options.out);
   if (!options.fit.finds_lens) return kDone;
   const std::string camera_out =
@@ -168,6 +174,7 @@ CLI::App* AddTagsFit(CLI::App* tags, Run* run) {
   command->add_option("--frames", options->fit.num_frames, "That are adjusted together")
       ->check(CLI::Range(10, 1000))
       ->capture_default_str();
+  command->add_flag("--force", options->is_forced, "Write a fit that no human can have, too");
   command->add_option("--json", options->json, "Write the report to this file");
   *run = [options] { return Fit(*options); };
   return command;
