@@ -20,6 +20,10 @@ std::span<const Recogniser> Recognisers() {
       Recogniser{"tags of a body", IsBodyTags, DescribeBodyTags},  // these two before cameras
       Recogniser{"calibration board", IsAprilGrid, DescribeAprilGrid},
       Recogniser{"camera", IsCamera, DescribeCamera},
+      Recogniser{"video", IsVideoOfFrames, DescribeVideo},
+      Recogniser{"folder of pictures", IsPictureFolder, DescribePictureFolder},
+      Recogniser{"table of angles", IsAnglesCsv, DescribeAnglesCsv},
+      Recogniser{"report", IsReport, DescribeReport},
       Recogniser{"lifted poses", IsPoses, DescribePoses},
       Recogniser{"true joints", IsTruth, DescribeTruth},
       Recogniser{"labels", IsLabels, DescribeLabels},  // of all JSON, so the last

@@ -53,6 +53,18 @@ nlohmann::ordered_json DescribeCamera(const std::filesystem::path& path);
 bool IsImage(const std::filesystem::path& path, std::string_view head);
 nlohmann::ordered_json DescribeImage(const std::filesystem::path& path);
 
+// recognise_video.cc.
+bool IsVideoOfFrames(const std::filesystem::path& path, std::string_view head);
+nlohmann::ordered_json DescribeVideo(const std::filesystem::path& path);
+bool IsPictureFolder(const std::filesystem::path& path, std::string_view head);
+nlohmann::ordered_json DescribePictureFolder(const std::filesystem::path& path);
+
+// What commands write with --json, and angles.csv: recognise_report.cc.
+bool IsReport(const std::filesystem::path& path, std::string_view head);
+nlohmann::ordered_json DescribeReport(const std::filesystem::path& path);
+bool IsAnglesCsv(const std::filesystem::path& path, std::string_view head);
+nlohmann::ordered_json DescribeAnglesCsv(const std::filesystem::path& path);
+
 bool IsPoses(const std::filesystem::path& path, std::string_view head);
 nlohmann::ordered_json DescribePoses(const std::filesystem::path& path);
 

@@ -136,6 +136,57 @@ TEST(Info, SumsUpLiftedPoses) {
   EXPECT_EQ(facts["time_s"], json({0.0, 1.5}));
 }
 
+TEST(Info, KnowsAStreamOfPoses) {
+  Poses poses;
+  std::string lines;
+  for (int f = 0; f < 3; ++f)
+    lines += FramePosesLine({"", 0.5 * f, {PersonPose{.id = 1, .status = "ok"}}});
+  WriteScratch("by_content", lines);
+  const json facts = FactsOf("by_content");
+  EXPECT_EQ(facts["kind"], "lifted poses");
+  EXPECT_EQ(facts["frames"], 3);
+  EXPECT_EQ(facts["time_s"], json({0.0, 1.0}));
+}
+
+TEST(Info, KnowsReportsAndTablesOfAngles) {
+  WriteScratch("r.json", R"({"command": "track", "input": "walk.mkv", "ok": 7, "rows": [1, 2]})");
+  const json report = FactsOf("r.json");
+  EXPECT_EQ(report["kind"], "report");
+  EXPECT_EQ(report["command"], "track");
+  EXPECT_EQ(report["ok"], 7);
+  EXPECT_EQ(report["rows"], "2 entries");
+  WriteScratch("angles.csv", "frame,time_s,left_knee.flexion\r\n0,0,1.5\r\n1,0.5,\r\n");
+  const json angles = FactsOf("angles.csv");
+  EXPECT_EQ(angles["kind"], "table of angles");
+  EXPECT_EQ(angles["angles"], 1);
+  EXPECT_EQ(angles["frames"], 2);
+  EXPECT_EQ(angles["known"], 1);
+  WriteScratch("cut.csv", "frame,time_s,left_knee.flexion\r\n0,0\r\n");
+  EXPECT_THAT(RunProgram("info cut.csv").err, HasSubstr("cut.csv:2: found 2 fields, wanted 3"));
+}
+
+TEST(Info, KnowsVideosAndFoldersOfPictures) {
+  const json video = FactsOf(SourcePath("samples/tags/clip.mp4").string());
+  EXPECT_EQ(video["kind"], "video");
+  EXPECT_NEAR(video["rate_hz"], 30.0, 0.01);
+  EXPECT_NEAR(video["duration_s"], video["frames"].get<double>() / 30.0, 0.01);
+  std::filesystem::create_directory(ScratchDir() / "frames");
+  for (const char* name : {"frames/b2.png", "frames/b10.png"})
+    WritePng(ScratchDir() / name, cv::Mat(40, 60, CV_8UC3, cv::Scalar(1, 2, 3)));
+  const json folder = FactsOf("frames");
+  EXPECT_EQ(folder["kind"], "folder of pictures");
+  EXPECT_EQ(folder["pictures"], 2);
+  EXPECT_EQ(folder["width_px"], 60);
+  EXPECT_EQ(folder["last"], "b10.png");
+}
+
+TEST(Info, KnowsTrueJointsOverTime) {
+  const json facts = FactsOf(SourcePath("samples/tags/truth.json").string());
+  EXPECT_EQ(facts["kind"], "true joints");
+  EXPECT_GT(facts["frames"], 10);
+  EXPECT_EQ(facts["time_s"][0], 0.0);
+}
+
 TEST(Info, KnowsTrueJoints) {
   WriteScratch("truth.json",
                R"({"joints_in_cam": {"left_hip": [0, 0, 1], "right_hip": [1, 0, 1],
