@@ -169,6 +169,10 @@ std::optional<VideoFrame> VideoFile::Next() {
   return frame;
 }
 
+int64_t VideoFile::stated_frames() const {
+  return static_cast<int64_t>(std::clamp(stated_frames_, 0.0, 1e9));
+}
+
 std::vector<double> ReadFrameTimes(const fs::path& path) {
   VideoFile video(path);
   std::vector<double> times_s;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the poselift authors
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <opencv2/videoio.hpp>
 #include <string_view>
@@ -29,6 +30,8 @@ class VideoFile : public FrameSource {
   cv::Size size_px() const override { return size_px_; }
   std::optional<VideoFrame> Next() override;
   std::optional<double> Skip_s() override;
+  // By the container, often an estimate; 0 when it states none.
+  int64_t stated_frames() const;
 
  private:
   bool Grab();

@@ -168,6 +168,13 @@ TEST(TagsPrintTest, WrongUsesAreRefusedWithWhatIsWanted) {
   refused("--tags none.toml", "none.toml");
   EXPECT_EQ(RunProgram("tags print --out t.pdf").code, 2);
   EXPECT_EQ(RunProgram("tags print --out t.pdf --set body --ids 3").code, 2);
+  refused("--ids 1,0-2", "found 1 twice");
+  for (const char* const ignored : {"--set body --family tag25h9", "--set body --size-mm 40",
+                                    "--ids 3 --rows 2", "--tags t.toml --spacing 0.2"}) {
+    const auto run = RunProgram(std::string("tags print --out t.pdf ") + ignored);
+    EXPECT_EQ(run.code, 2) << ignored;
+    EXPECT_THAT(run.err, HasSubstr("says nothing here")) << ignored;
+  }
 }
 
 }  // namespace

@@ -26,6 +26,7 @@
 #include "ui/cli/calibrate_views.h"
 #include "ui/cli/command.h"
 #include "ui/cli/progress.h"
+#include "ui/cli/refuse_options.h"
 
 namespace poselift::cli {
 namespace {
@@ -217,8 +218,17 @@ CLI::App* AddCalibrate(CLI::App* app, Run* run) {
                    "Video and camera: use at most")
       ->check(CLI::Range(3, 1000))
       ->capture_default_str();
-  command->callback([options] {
+  command->callback([options, command] {
     const bool is_chessboard = options->board == "chessboard";
+    static constexpr std::initializer_list<const char*> kOfGrid = {
+        "--tags", "--tag-mm", "--spacing", "--first-id", "--family"};
+    if (is_chessboard) {
+      RefuseOptions(*command, kOfGrid, "it is of --board aprilgrid");
+      RefuseOptions(*command, {"--target"}, "it is of --board aprilgrid");
+    } else {
+      RefuseOptions(*command, {"--corners", "--square-mm"}, "it is of --board chessboard");
+    }
+    if (!options->target.empty()) RefuseOptions(*command, kOfGrid, "the file of --target says it");
     if (is_chessboard && (options->corners.rows == 0 || options->square_mm == 0.0))
       throw CLI::RequiredError("--corners and --square-mm for a chessboard");
     if (!is_chessboard && options->target.empty() &&

@@ -243,7 +243,7 @@ CLI::App* AddEvaluateTrack(CLI::App* app, Run* run) {
       ->add_option("--worn", experiment.worn,
                    "13 tags in front, 36 on all sides, or the 16 that `tags print` prints")
       ->transform(CLI::CheckedTransformer(WornNames()))
-      ->default_str("front");
+      ->option_text("front|around|printed [front]");
   command->add_option("--exposure-s", experiment.exposure_s, "Of each frame: motion blur")
       ->check(IsNumber(0.0, 0.033))
       ->capture_default_str();

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the poselift authors
 #include "ui/cli/latency_meter.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -22,6 +24,12 @@ double LatencyMeter::Quantile_ms(double quantile) const {
     if (static_cast<double>(sum) >= wanted) return 1e3 * kStep_s * (static_cast<double>(i) + 0.5);
   }
   return 1e3 * kLongest_s;
+}
+
+std::string LatencyMeter::QuantileText(double quantile) const {
+  const double ms = Quantile_ms(quantile);
+  return ms >= 1e3 * kLongest_s ? fmt::format("over {:g} s", kLongest_s)
+                                : fmt::format("{:.1f} ms", ms);
 }
 
 }  // namespace poselift::cli

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace poselift::cli {
 
@@ -16,7 +17,10 @@ class LatencyMeter {
   void Add(double time_s);
   // 0 to 1; 0 when nothing was added.
   double Quantile_ms(double quantile) const;
+  // "12.3 ms", or that it is longer than is told apart.
+  std::string QuantileText(double quantile) const;
   int64_t count() const { return count_; }
+  int64_t num_over() const { return counts_.back(); }  // kLongest_s or longer
 
  private:
   static constexpr double kStep_s = 1e-4;

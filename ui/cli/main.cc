@@ -7,8 +7,11 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "src/input_error.h"
+#include "src/nearest_names.h"
 #include "ui/cli/command.h"
 
 namespace {
@@ -24,6 +27,30 @@ constexpr std::array kCommands = {
     AddCommand{poselift::cli::AddCalibrate}, AddCommand{poselift::cli::AddTrack},
     AddCommand{poselift::cli::AddTags},
 };
+
+// Of words that stand where a command is wanted and are none: the nearest there is.
+std::string UnknownCommand(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* at = &app;
+  std::string command = "poselift";
+  for (int i = 1; i < argc; ++i) {
+    const auto commands = at->get_subcommands([](const CLI::App*) { return true; });
+    const std::string word = argv[i];
+    if (commands.empty() || word.starts_with('-')) return "";
+    std::vector<std::string> names;
+    const CLI::App* next = nullptr;
+    for (const CLI::App* other : commands) {
+      names.push_back(other->get_name());
+      if (names.back() == word) next = other;
+    }
+    if (!next)
+      return "poselift: found no command \"" + word + "\", wanted perhaps: " + command + " " +
+             poselift::NearestNames(word, names, 1).front() + "; all of them: " + command +
+             " --help\n";
+    at = next;
+    command += " " + word;
+  }
+  return "";
+}
 
 int RunGuarded(const Run& run) {
   try {
@@ -51,6 +78,10 @@ int main(int argc, char** argv) {
   std::array<Run, kCommands.size()> runs;
   std::array<CLI::App*, kCommands.size()> commands{};
   for (size_t i = 0; i < kCommands.size(); ++i) commands[i] = kCommands[i](&app, &runs[i]);
+  if (const std::string flaw = UnknownCommand(app, argc, argv); !flaw.empty()) {
+    std::fputs(flaw.c_str(), stderr);
+    return poselift::cli::kWrongUsage;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

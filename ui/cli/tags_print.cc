@@ -7,6 +7,7 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
@@ -22,6 +23,7 @@
 #include "src/io/body_tags_toml.h"
 #include "src/io/mapped_file.h"
 #include "src/io/text_scanner.h"
+#include "ui/cli/refuse_options.h"
 #include "ui/cli/tags.h"
 
 namespace poselift::cli {
@@ -50,7 +52,11 @@ std::vector<int> ReadIds(const std::string& text) {
     last = first;
     if (read.ptr < end && *read.ptr == '-') read = std::from_chars(read.ptr + 1, end, last);
     if (read.ec != std::errc() || last < first || last > 65535) fail();
-    for (int id = first; id <= last; ++id) ids.push_back(id);
+    for (int id = first; id <= last; ++id) {
+      if (std::find(ids.begin(), ids.end(), id) != ids.end())
+        throw InputError("--ids", fmt::format("found {} twice, wanted ids that differ", id));
+      ids.push_back(id);
+    }
     if (read.ptr < end && *read.ptr++ != ',') fail();
     at = read.ptr;
   }
@@ -159,7 +165,14 @@ CLI::App* AddTagsPrint(CLI::App* tags, Run* run) {
   command->add_option("--columns", options->columns, "Of the board")->capture_default_str();
   command->add_option("--spacing", options->spacing, "Of the board: gap / size")
       ->capture_default_str();
-  command->callback([options, size] { options->has_size = size->count() > 0; });
+  command->callback([options, size, command] {
+    options->has_size = size->count() > 0;
+    if (options->set == "board") return;
+    RefuseOptions(*command, {"--rows", "--columns", "--spacing"}, "it is of --set board");
+    if (options->ids.empty())
+      RefuseOptions(*command, {"--family", "--size-mm"},
+                    "the tags of a body have theirs: edit a tags.toml and print it with --tags");
+  });
   *run = [options] { return Print(*options); };
   return command;
 }

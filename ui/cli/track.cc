@@ -20,7 +20,9 @@
 #include <string>
 
 #include "lift/poses_to_motion.h"
+#include "lift/tracking/fit_check.h"
 #include "src/capture/live_frame_source.h"
+#include "src/capture/open_frame_source.h"
 #include "src/input_error.h"
 #include "src/io/atomic_file.h"
 #include "src/io/body_tags_toml.h"
@@ -30,6 +32,7 @@
 #include "ui/cli/frame_rate.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/latency_meter.h"
+#include "ui/cli/progress.h"
 #include "ui/cli/tag_session.h"
 #include "ui/cli/track_recording.h"
 #include "ui/cli/track_video.h"
@@ -51,8 +54,12 @@ struct Options {
   bool stream = false;
   int udp_port = 0;
   bool record = false;
+  bool may_overwrite = false;
   std::optional<double> before_s;  // the video begins so long before somebody is seen
 };
+
+// Of the tags, that do not fit: where it is said where they sit, some in a hundred.
+constexpr double kManyDoubted = 0.25;
 
 double Monotonic_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -60,7 +67,7 @@ double Monotonic_s() {
 
 struct Counts {
   long frames = 0, lost = 0, ok = 0, filled = 0, unknown = 0;
-  long tags = 0;
+  long tags = 0, tags_judged = 0, tags_doubted = 0;
   double seconds = 0.0;  // of the clock
 };
 
@@ -132,6 +139,10 @@ void Count(const TagSession::Tracked& tracked, Counts* counts) {
   counts->filled += status == kFilledStatus;
   counts->unknown += status == kUnknownStatus;
   counts->tags += std::ssize(tracked.tag_ids);
+  for (const auto& tag : tracked.poses.people.front().tags) {
+    ++counts->tags_judged;
+    counts->tags_doubted += !tag.believed;
+  }
 }
 
 Json Facts(const Options& options, const Counts& counts, const Outputs& outputs) {
@@ -146,11 +157,13 @@ Json Facts(const Options& options, const Counts& counts, const Outputs& outputs)
                 {"tags_per_frame", counts.frames > 0 ? static_cast<double>(counts.tags) /
                                                            static_cast<double>(counts.frames)
                                                      : 0.0},
+                {"tags_not_believed", counts.tags_doubted},
                 {"lines_missed", outputs.num_missed()},
                 {"seconds", counts.seconds}};
   if (latency.count() > 0)
     facts["latency_ms"] = {{"median", latency.Quantile_ms(0.5)},
-                           {"p99", latency.Quantile_ms(0.99)}};
+                           {"p99", latency.Quantile_ms(0.99)},
+                           {"frames_over_2_s", latency.num_over()}};
   return facts;
 }
 
@@ -162,8 +175,8 @@ void Report(const Options& options, const Counts& counts, const Outputs& outputs
       counts.frames > 0 ? static_cast<double>(counts.tags) / static_cast<double>(counts.frames)
                         : 0.0);
   if (latency.count() > 0)
-    text += fmt::format("; from camera to line {:.1f} ms at the median, {:.1f} ms at 99 %",
-                        latency.Quantile_ms(0.5), latency.Quantile_ms(0.99));
+    text += fmt::format("; from camera to line {} at the median, {} at 99 %",
+                        latency.QuantileText(0.5), latency.QuantileText(0.99));
   if (outputs.num_missed() > 0)
     text += fmt::format("; {} lines missed by who listens", outputs.num_missed());
   // Standard output may be the stream.
@@ -172,6 +185,15 @@ void Report(const Options& options, const Counts& counts, const Outputs& outputs
     fmt::print(options.stream ? stderr : stdout, "results in {}\n", options.out);
   if (!options.json.empty())
     WriteFileAtomically(options.json, Facts(options, counts, outputs).dump(2) + "\n");
+  if (static_cast<double>(counts.tags_doubted) >
+      kManyDoubted * static_cast<double>(counts.tags_judged))
+    fmt::print(
+        stderr,
+        "poselift: {:.0f} % of the tags do not fit the poses: are left and right swapped in "
+        "{}, or a tag on another bone, or their size wrong? `poselift tags fit` finds where "
+        "they sit\n",
+        100.0 * static_cast<double>(counts.tags_doubted) / static_cast<double>(counts.tags_judged),
+        options.tags);
   if (counts.frames > 0 && counts.ok == 0)
     fmt::print(stderr,
                "poselift: found nobody: are these the tags of {} and of its family? `poselift "
@@ -190,6 +212,8 @@ void TellAssumptions(const TrackingInputs& inputs) {
     fmt::print(stderr, "camera: taken for level (--pitch-deg, --roll-deg)\n");
 }
 
+fs::path VideoPath(const Options& options) { return fs::path(options.out) / "video.mkv"; }
+
 // The raw video of a camera, when it is wanted.
 std::optional<TrackVideo> StartVideo(const Options& options, const FrameSource& source) {
   if (!options.record) return std::nullopt;
@@ -198,11 +222,25 @@ std::optional<TrackVideo> StartVideo(const Options& options, const FrameSource& 
     throw InputError(options.inputs.input,
                      "--record: found no camera, wanted one: this video is recorded already");
   fs::create_directories(options.out);
-  return std::optional<TrackVideo>(std::in_place, fs::path(options.out) / "video.mkv",
-                                   live->camera().format(), options.before_s);
+  return std::optional<TrackVideo>(std::in_place, VideoPath(options), live->camera().format(),
+                                   options.before_s);
+}
+
+// What a camera gave cannot be had again; what files gave can, and is replaced as other commands
+// do.
+void RefuseToReplace(const Options& options) {
+  const fs::path poses = fs::path(options.out) / "poses.json";
+  if (options.out.empty() || !fs::exists(poses)) return;
+  const bool is_camera = KindOfSource(options.inputs.input) == SourceKind::kCamera;
+  if ((is_camera || fs::exists(VideoPath(options))) && !options.may_overwrite)
+    throw InputError(
+        options.out,
+        "found a recording, wanted a folder without: name another, or say --overwrite");
+  fmt::print(stderr, "poselift: replaces the recording in {}\n", options.out);
 }
 
 int Track(Options options) {
+  RefuseToReplace(options);
   const BodyTags tags = ReadBodyTags(options.tags);
   const TrackingModels models = ReadModels(options.inputs);
   const PhotoLifter lifter(models.dictionary);
@@ -212,10 +250,14 @@ int Track(Options options) {
   TagSession session(tags, camera, lifter, models.codebook, options.session);
   TellAssumptions(options.inputs);
   TellCamera(*source);
+  const std::string flaw = ImplausibleBody(models.dictionary.skeleton, session.skeleton());
+  if (!flaw.empty()) fmt::print(stderr, "poselift: {}: {}\n", options.tags, flaw);
   std::optional<TrackVideo> video = StartVideo(options, *source);
   Outputs outputs(options, session.skeleton(), FrameTime_s(options.inputs, *source));
   const Interrupt interrupt;  // the recording is closed as it should be
 
+  const int64_t num_frames = NumFrames(options.inputs);
+  std::optional<Progress> progress(std::in_place, "track", num_frames, "frames");
   Counts counts;
   const double start_s = Monotonic_s();
   const auto take = [&] {
@@ -233,6 +275,8 @@ int Track(Options options) {
       counts.lost += frame->num_lost;
       if (options.seconds > 0.0 && frame->time_s >= options.seconds) break;
       ++counts.frames;
+      if (num_frames > 0)
+        progress->Advance(static_cast<double>(counts.frames) / static_cast<double>(num_frames));
       if (video) video->Add(*frame);
       session.Add(*frame);
       take();
@@ -244,6 +288,7 @@ int Track(Options options) {
   counts.seconds = Monotonic_s() - start_s;
   outputs.Close();
   if (video) video->Close();
+  progress.reset();
   Report(options, counts, outputs);
   if (broken) std::rethrow_exception(broken);
   return counts.ok > 0 ? kDone : kFailed;
@@ -263,6 +308,8 @@ CLI::App* AddTrack(CLI::App* app, Run* run) {
   AddTrackingInputs(command, &options->inputs);
   command->add_option("--tags", options->tags, "Which tag sits where (tags.toml)")->required();
   command->add_option("--out", options->out, "Folder for the recording; made when missing");
+  command->add_flag("--overwrite", options->may_overwrite,
+                    "Replace a camera's recording that is in --out");
   command->add_flag("--stream", options->stream,
                     "Write each frame as a line of JSON to standard output");
   command->add_option("--udp", options->udp_port, "Send each line to this port of this machine")
@@ -287,6 +334,7 @@ CLI::App* AddTrack(CLI::App* app, Run* run) {
   command
       ->add_option("--record-before-s", options->before_s,
                    "The video begins so long before a person is first seen (default: at once)")
+      ->needs("--record")
       ->check(IsNumber(0.0, 60.0));
   command->add_flag_callback(
       "--no-window", [] {}, "Open no window: what it does anyway");

@@ -20,8 +20,11 @@
 #include "src/capture/paced_frame_source.h"
 #include "src/input_error.h"
 #include "src/io/camera_file.h"
+#include "src/io/image_folder.h"
+#include "src/io/video.h"
 #include "src/level_camera.h"
 #include "ui/cli/frame_rate.h"
+#include "ui/cli/refuse_options.h"
 
 namespace poselift::cli {
 
@@ -56,6 +59,24 @@ void AddTrackingInputs(CLI::App* command, TrackingInputs* inputs) {
                     "Video: as a camera would give it, late frames lost");
   command->add_option("--dictionary", inputs->dictionary, "Default: the one that ships");
   command->add_option("--motion-model", inputs->motion_model, "Default: the one that ships");
+  command->parse_complete_callback([command, inputs] {
+    if (inputs->input.empty()) return;
+    SourceKind kind = SourceKind::kCamera;
+    try {
+      kind = KindOfSource(inputs->input);
+    } catch (const InputError&) {
+      return;  // who opens it says what is wrong
+    }
+    if (kind != SourceKind::kCamera)
+      RefuseOptions(*command, {"--size", "--rate", "--format", "--set"},
+                    "it is of a camera, and " + inputs->input + " is none");
+    if (kind != SourceKind::kFolder)
+      RefuseOptions(*command, {"--fps"}, "it is of a folder of pictures, which have no times");
+    if (kind == SourceKind::kCamera)
+      RefuseOptions(*command, {"--realtime"}, "a camera is so anyway");
+    if (!inputs->camera.empty())
+      RefuseOptions(*command, {"--fov-deg"}, "the file of --camera says how wide it sees");
+  });
 }
 
 TrackingModels ReadModels(const TrackingInputs& inputs) {
@@ -89,6 +110,17 @@ double FrameTime_s(const TrackingInputs& inputs, const FrameSource& source) {
   const auto first_s = probe->Skip_s(), second_s = probe->Skip_s();
   if (!first_s || !second_s) return 1.0 / inputs.device.rate_hz;
   return std::clamp(*second_s - *first_s, kShortest_s, kLongest_s);
+}
+
+int64_t NumFrames(const TrackingInputs& inputs) {
+  switch (KindOfSource(inputs.input)) {
+    case SourceKind::kVideo:
+      return VideoFile(inputs.input, Pictures::kGrey).stated_frames();
+    case SourceKind::kFolder:
+      return std::ssize(ImageFolder(inputs.input, 1.0, Pictures::kGrey).files());
+    default:
+      return 0;
+  }
 }
 
 Camera CameraOf(const TrackingInputs& inputs, cv::Size size_px) {

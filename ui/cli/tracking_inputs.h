@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <memory>
 #include <opencv2/core/types.hpp>
 #include <string>
@@ -47,6 +48,9 @@ std::unique_ptr<FrameSource> OpenSource(const TrackingInputs& inputs);
 // About how far apart its frames are: what the camera gave, --fps of a folder, the first two of a
 // video.
 double FrameTime_s(const TrackingInputs& inputs, const FrameSource& source);
+
+// How many frames come, by what the container states of a video; 0 where nobody knows.
+int64_t NumFrames(const TrackingInputs& inputs);
 
 // The camera file, at the size of the pictures; without one a camera of fov_deg without
 // distortion. Throws InputError for a camera of another shape than the pictures'.

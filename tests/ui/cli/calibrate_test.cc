@@ -189,6 +189,12 @@ TEST(Calibrate, WrongUsageAndUnreadableInputHaveTheirCodes) {
   EXPECT_EQ(RunProgram("calibrate . --corners 4 --square-mm 60").code, 2);
   EXPECT_EQ(RunProgram("calibrate . --corners 4x7x --square-mm 60").code, 2);
   EXPECT_EQ(RunProgram("calibrate . --board aprilgrid --corners 4x7").code, 2);
+  for (const char* const ignored : {"--tag-mm 20", "--corners 4x7"}) {
+    const ProgramRun run =
+        RunProgram(std::string("calibrate . --board aprilgrid --target t.yaml ") + ignored);
+    EXPECT_EQ(run.code, 2) << ignored;
+    EXPECT_NE(run.err.find("says nothing here"), std::string::npos) << run.err;
+  }
   const auto small = RunProgram("calibrate . --corners 2x7 --square-mm 60");
   EXPECT_EQ(small.code, 3);
   EXPECT_THAT(small.err, HasSubstr("2 x 7 inner corners, wanted 3 to 50"));

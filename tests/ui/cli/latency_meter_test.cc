@@ -22,6 +22,9 @@ TEST(LatencyMeterTest, TimesBeyondItsRangeCountAtItsEnds) {
   EXPECT_NEAR(meter.Quantile_ms(1.0), 0.0, 0.1);
   meter.Add(1e9);
   EXPECT_NEAR(meter.Quantile_ms(1.0), 1e3 * LatencyMeter::kLongest_s, 0.1);
+  EXPECT_EQ(meter.num_over(), 1);
+  EXPECT_EQ(meter.QuantileText(1.0), "over 2 s");
+  EXPECT_EQ(meter.QuantileText(0.5), "0.1 ms");
 }
 
 }  // namespace

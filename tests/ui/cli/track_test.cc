@@ -159,6 +159,44 @@ TEST_F(TrackProgram, FitsTagsThatTrackThenReads) {
     EXPECT_LT(Error_mm(frame), 60.0);
 }
 
+TEST_F(TrackProgram, AFitThatNoHumanCanHaveIsNotWritten) {
+  Render(20);
+  BodyTags large = person_.worn;
+  for (BodyTag& tag : large.tags) tag.size_m *= 1.8;
+  for (BodyTag& tag : large.tags) tag.on_bone->sigma_m = 0.03;
+  WriteBodyTags(large, ScratchDir() / "large.toml");
+  const std::string command =
+      "tags fit frames --fps 15 --camera camera.yaml --tags large.toml --out mine.toml --frames "
+      "15" +
+      kModels;
+  const ProgramRun refused = RunProgram(command);
+  EXPECT_EQ(refused.code, 1) << refused.err;
+  EXPECT_THAT(refused.err, HasSubstr("Is the tags' size right?"));
+  EXPECT_FALSE(fs::exists(ScratchDir() / "mine.toml"));
+  const ProgramRun forced = RunProgram(command + " --force");
+  EXPECT_EQ(forced.code, 0) << forced.err;
+  // Who tracks with it hears of it.
+  const ProgramRun run =
+      RunProgram("track frames --fps 15 --camera camera.yaml --tags mine.toml --out run" + kModels);
+  EXPECT_THAT(run.err, HasSubstr("Is the tags' size right?"));
+}
+
+TEST_F(TrackProgram, ACamerasRecordingIsNotReplacedUnasked) {
+  Render(3);
+  const std::string command =
+      "track frames --fps 15 --camera camera.yaml --tags tags.toml --out run" + kModels;
+  ASSERT_EQ(RunProgram(command).code, 0);
+  // Of files it can be had again.
+  const ProgramRun again = RunProgram(command);
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_THAT(again.err, HasSubstr("replaces the recording in run"));
+  WriteScratch("run/video.mkv", "a camera's");
+  const ProgramRun refused = RunProgram(command);
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("--overwrite"));
+  EXPECT_EQ(RunProgram(command + " --overwrite").code, 0);
+}
+
 TEST_F(TrackProgram, FitsTheCameraToo) {
   Render(20);
   const ProgramRun fit = RunProgram(
@@ -190,6 +228,11 @@ TEST_F(TrackProgram, WhatIsWrongIsRefusedBeforeAnythingIsWritten) {
          "a camera of 1280 x 720 pixels and pictures of 640 x 480");
   expect("track frames --tags tags.toml", 2, "--out, --stream or --udp");
   expect("track frames --tags tags.toml --out run --record", 3, "recorded already");
+  expect("track frames --tags tags.toml --out run --record-before-s 2", 2, "--record");
+  expect("track frames --tags tags.toml --out run --set gain=2", 2, "--set: says nothing here");
+  expect("track frames --tags tags.toml --out run --realtime --size 640x480", 2, "--size");
+  expect("trak frames --tags tags.toml --out run", 2, "wanted perhaps: poselift track");
+  expect("tags fti frames", 2, "wanted perhaps: poselift tags fit");
   WriteScratch("broken.toml", "family = \"tag36h11\"\n[[tag]]\nid = 1\nsize_mm = \"x\"\n");
   expect("track frames --tags broken.toml --out run", 3, "broken.toml:4");
 }
