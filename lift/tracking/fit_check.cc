@@ -49,7 +49,7 @@ std::string ImplausibleBody(const Skeleton& standard, const Skeleton& person) {
     return fmt::format(
         "the bones come out {:.2f} times as long as an adult's. Is the tags' size right? It is the "
         "edge of the square between the black and the white border; about {:.2f} of what the tags "
-        "file says would fit",
+        "file says would fit.",
         std::exp(size), std::exp(-size));
   std::string found;
   const auto add = [&](const std::string& what) { found += (found.empty() ? "" : ", ") + what; };

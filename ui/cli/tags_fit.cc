@@ -134,7 +134,7 @@ int Fit(Options options) {
   if (!options.json.empty()) WriteJson(fit, flaw, options);
   if (!flaw.empty()) {
     fmt::print(stderr, "poselift: {}: {}{}\n", options.tags, flaw,
-               options.is_forced ? "" : ". Nothing is written; --force writes it all the same");
+               options.is_forced ? "" : " Nothing is written; --force writes it all the same");
     if (!options.is_forced) return kFailed;
   }
   WriteBodyTags(fit.tags, options.out);

@@ -59,7 +59,7 @@ struct Options {
 };
 
 // Of the tags, that do not fit: where it is said where they sit, some in a hundred.
-constexpr double kManyDoubted = 0.25;
+constexpr double kManyDoubted = 0.12;
 
 double Monotonic_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
