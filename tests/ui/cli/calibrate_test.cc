@@ -190,7 +190,7 @@ TEST(Calibrate, WrongUsageAndUnreadableInputHaveTheirCodes) {
   EXPECT_EQ(RunProgram("calibrate . --corners 4x7x --square-mm 60").code, 2);
   EXPECT_EQ(RunProgram("calibrate . --board aprilgrid --corners 4x7").code, 2);
   for (const char* const ignored : {"--tag-mm 20", "--corners 4x7"}) {
-    const ProgramRun run =
+    const auto run =
         RunProgram(std::string("calibrate . --board aprilgrid --target t.yaml ") + ignored);
     EXPECT_EQ(run.code, 2) << ignored;
     EXPECT_NE(run.err.find("says nothing here"), std::string::npos) << run.err;
