@@ -17,7 +17,7 @@
 namespace poselift {
 namespace {
 
-constexpr double kSmallest = 0.70, kLargest = 1.23;
+constexpr double kSmallest = 0.50, kLargest = 1.23;  // of an adult: a child of three, a giant
 constexpr double kMostOff = 1.33, kForearmMostOff = 1.67, kMostUneven = 1.15;
 constexpr const char* kOtherPlace =
     "Is a left tag on the right or the other way round, or a tag on another bone than the tags "
