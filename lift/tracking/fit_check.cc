@@ -74,9 +74,11 @@ std::string ImplausibleFit(const Skeleton& standard, const TagFit& fit) {
   std::string flaw = ImplausibleBody(standard, fit.skeleton);
   if (!flaw.empty()) return flaw;
   for (const TagFitRow& row : fit.rows)
-    if (row.num_frames > 0 && (row.rms_px > kWorstFit_px || row.moved_mm > kFarthestMoved_mm))
-      flaw += fmt::format("{}{} ({:.0f} mm off, {:.1f} px)", flaw.empty() ? "" : ", ", row.id,
-                          row.moved_mm, row.rms_px);
+    if (row.rms_px > kWorstFit_px || row.moved_mm > kFarthestMoved_mm ||
+        row.leaned_deg > kFarthestLeaned_deg)
+      flaw +=
+          fmt::format("{}{} ({:.0f} mm and {:.0f} degrees off, {:.1f} px)",
+                      flaw.empty() ? "" : ", ", row.id, row.moved_mm, row.leaned_deg, row.rms_px);
   if (flaw.empty()) return "";
   return fmt::format("tags sit far from where the tags file has them, or move unlike it: {}. {}",
                      flaw, kOtherPlace);

@@ -123,7 +123,9 @@ TagFitRow RowOf(const TagMount& mount, const TagBundle& bundle,
   const Eigen::Isometry3d moved =
       mount.said->on_bone->bone_from_tag.inverse() * mount.BoneFromTag();
   row.moved_mm = 1e3 * moved.translation().norm();
-  row.turned_deg = Eigen::AngleAxisd(moved.linear()).angle() * 180.0 / std::numbers::pi;
+  constexpr double kDeg = 180.0 / std::numbers::pi;
+  row.turned_deg = kDeg * Eigen::AngleAxisd(moved.linear()).angle();
+  row.leaned_deg = kDeg * std::acos(std::clamp(moved.linear()(2, 2), -1.0, 1.0));
   return row;
 }
 

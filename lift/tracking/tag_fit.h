@@ -19,6 +19,7 @@ struct TagFitRow {
   double rms_px = 0.0;    // of its corners
   double moved_mm = 0.0;  // from where it was said to be
   double turned_deg = 0.0;
+  double leaned_deg = 0.0;  // of that, its face: a paper may be worn any way up
 };
 
 struct TagFit {

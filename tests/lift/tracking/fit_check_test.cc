@@ -99,13 +99,13 @@ TEST_F(FitCheckTest, ATagOnAnotherBoneIsTold) {
 
 TEST_F(FitCheckTest, PeopleOfAllKindsArePlausibleBodiesAndOthersAreNot) {
   const Skeleton& standard = dictionary_.skeleton;
-  GroupVector ratios = GroupVector::Constant(std::log(0.75));
+  GroupVector ratios = GroupVector::Constant(std::log(0.6));
   EXPECT_EQ(ImplausibleBody(standard, WithProportions(standard, ratios)), "");  // a child
   ratios.setConstant(std::log(1.2));
   EXPECT_EQ(ImplausibleBody(standard, WithProportions(standard, ratios)), "");
-  ratios.setConstant(std::log(1.0 / 1.8));
+  ratios.setConstant(std::log(1.0 / 2.2));
   EXPECT_THAT(ImplausibleBody(standard, WithProportions(standard, ratios)),
-              HasSubstr("about 1.80"));
+              HasSubstr("about 2.20"));
   ratios.setZero();
   ratios[0] = std::log(1.55);
   EXPECT_THAT(ImplausibleBody(standard, WithProportions(standard, ratios)), HasSubstr("hip +55 %"));
