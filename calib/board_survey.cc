@@ -21,13 +21,13 @@ struct MostSeen {
 };
 
 MostSeen MostSeenOf(const BoardSurvey& survey) {
+  std::vector<BoardCounts> seen = survey.larger;
+  for (const BoardAbsence& absence : survey.absences)
+    if (absence.seen) seen.push_back(*absence.seen);
   MostSeen most;
-  for (const BoardAbsence& absence : survey.absences) {
-    if (!absence.seen) continue;
-    const int times = static_cast<int>(
-        std::count_if(survey.absences.begin(), survey.absences.end(),
-                      [&](const BoardAbsence& other) { return other.seen == absence.seen; }));
-    if (times > most.times) most = {*absence.seen, times};
+  for (const BoardCounts& counts : seen) {
+    const int times = static_cast<int>(std::count(seen.begin(), seen.end(), counts));
+    if (times > most.times) most = {counts, times};
   }
   return most;
 }
@@ -39,6 +39,11 @@ bool IsPartOf(const BoardCounts& part, const BoardCounts& whole) {
 
 }  // namespace
 
+void BoardSurvey::AddFound(const BoardView& view) {
+  ++num_found;
+  if (view.part_of) larger.push_back(*view.part_of);
+}
+
 std::string FlawOfBoard(const BoardFinder& finder, const BoardSurvey& survey) {
   const int num_mirrored = static_cast<int>(
       std::count_if(survey.absences.begin(), survey.absences.end(),
@@ -47,7 +52,7 @@ std::string FlawOfBoard(const BoardFinder& finder, const BoardSurvey& survey) {
     return "the pictures are mirrored: the board is seen only when they are turned left to right; "
            "switch off the mirror of the camera or the program that took them";
   const MostSeen most = MostSeenOf(survey);
-  if (most.times > survey.num_found) {
+  if (most.times > survey.num_found - static_cast<int>(survey.larger.size())) {
     const BoardCounts said = finder.counts();
     std::string text = fmt::format(
         "I see {} {} in {} of {} pictures, you said {}", Text(most.counts), finder.counted(),
@@ -55,7 +60,12 @@ std::string FlawOfBoard(const BoardFinder& finder, const BoardSurvey& survey) {
     if (BoardCounts{most.counts.rows + 1, most.counts.columns + 1} == said)
       text += "; count the inner corners, where four squares meet, not the squares";
     else if (IsPartOf(most.counts, said))
-      text += "; if that is right, the rest of the board is hidden or outside of the pictures";
+      text += fmt::format(
+          "; if the board has {}, show all of it: a part is hidden or outside of "
+          "the pictures; else say {}",
+          Text(said), Text(most.counts));
+    else
+      text += fmt::format("; say {} if that is the board", Text(most.counts));
     return text;
   }
   if (survey.num_found == 0)
@@ -69,8 +79,8 @@ std::string Describe(const BoardFinder& finder, const BoardAbsence& absence) {
   if (absence.is_mirrored) return "mirrored";
   if (!absence.seen) return "no board seen";
   if (IsPartOf(*absence.seen, finder.counts()))
-    return fmt::format("{} {} seen of {}: the rest is hidden or outside of the picture",
-                       Text(*absence.seen), finder.counted(), Text(finder.counts()));
+    return fmt::format("{} {} seen, not all of {}", Text(*absence.seen), finder.counted(),
+                       Text(finder.counts()));
   return fmt::format("{} {} seen, not {}", Text(*absence.seen), finder.counted(),
                      Text(finder.counts()));
 }

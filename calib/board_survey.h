@@ -10,10 +10,14 @@
 namespace poselift {
 
 // What pictures showed of a board, together: one that shows a smaller board shows a part of
-// it, many that show the same other board say that the counts are wrong.
+// it, and one may seem to show a larger board; many that show the same other board say that
+// the counts are wrong.
 struct BoardSurvey {
   int num_found = 0;
+  std::vector<BoardCounts> larger;     // of those found, what some look like a part of
   std::vector<BoardAbsence> absences;  // of the pictures without the board
+
+  void AddFound(const BoardView& view);
 };
 
 // Why there is nothing to calibrate from, and what to do; empty when nothing is wrong with

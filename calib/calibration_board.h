@@ -19,18 +19,19 @@ struct CalibrationBoard {
   int num_corners() const { return static_cast<int>(corners_in_board_m.cols()); }
 };
 
-// What a picture shows of a board.
-struct BoardView {
-  std::vector<int> ids;         // of corners, increasing
-  Eigen::Matrix2Xd corners_px;  // of each id; integer = pixel centre
-
-  bool empty() const { return ids.empty(); }
-};
-
 struct BoardCounts {
   int rows = 0;
   int columns = 0;
   bool operator==(const BoardCounts&) const = default;
+};
+
+// What a picture shows of a board.
+struct BoardView {
+  std::vector<int> ids;                // of corners, increasing
+  Eigen::Matrix2Xd corners_px;         // of each id; integer = pixel centre
+  std::optional<BoardCounts> part_of;  // the larger board that it looks like a part of
+
+  bool empty() const { return ids.empty(); }
 };
 
 // Why a picture shows no board: another one is seen, or a mirrored one, or neither.

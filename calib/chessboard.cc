@@ -11,6 +11,7 @@
 #include <numeric>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "calib/saddle_points.h"
 #include "src/input_error.h"
@@ -54,7 +55,7 @@ Eigen::Vector2d At(const Corners& corners, int row, int column) {
 // Each inner corner lies about midway between its neighbours, which perspective and the lens
 // move by a small part of a square only.
 bool IsGrid(const Corners& corners) {
-  constexpr double kFarthest = 0.25;  // of the distance of the neighbours
+  constexpr double kFarthest = 0.12;  // of the distance of the neighbours; a row left out: 0.17
   const auto is_midway = [&](int row, int column, int dr, int dc) {
     const Eigen::Vector2d a = At(corners, row - dr, column - dc);
     const Eigen::Vector2d b = At(corners, row + dr, column + dc);
@@ -68,13 +69,55 @@ bool IsGrid(const Corners& corners) {
   return true;
 }
 
+// The mean about a point; nothing outside of the picture.
+std::optional<double> GreyAt(const cv::Mat& grey, const Eigen::Vector2d& x_px) {
+  const cv::Rect about(cvRound(x_px.x()) - 1, cvRound(x_px.y()) - 1, 3, 3);
+  if ((about & cv::Rect({}, grey.size())) != about) return std::nullopt;
+  return cv::mean(grey(about))[0];
+}
+
+// Whether four squares meet there, of two greys in turn. The edges of the squares lead
+// `across` and `down` from there.
+bool IsCorner(const cv::Mat& grey, const Eigen::Vector2d& x_px, const Eigen::Vector2d& across_px,
+              const Eigen::Vector2d& down_px) {
+  constexpr double kLeastContrast = 20.0, kMostUnlike = 0.5;
+  const Eigen::Vector2d falling = 0.3 * (across_px + down_px), rising = 0.3 * (across_px - down_px);
+  const auto a = GreyAt(grey, x_px + falling), b = GreyAt(grey, x_px - falling);
+  const auto c = GreyAt(grey, x_px + rising), d = GreyAt(grey, x_px - rising);
+  if (!a || !b || !c || !d) return false;
+  const double contrast = 0.5 * std::abs(*a + *b - *c - *d);
+  return contrast > kLeastContrast &&
+         std::max(std::abs(*a - *b), std::abs(*c - *d)) < kMostUnlike * contrast;
+}
+
+// Where three in a row lead, in perspective.
+Eigen::Vector2d Beyond(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                       const Eigen::Vector2d& c) {
+  return 3.0 * (c - b) + a;
+}
+
+// Most corners are where squares meet. The finder gives some boards rows that they do not have,
+// and lines that run aslant through a larger board.
+bool HasSquares(const cv::Mat& grey, const Corners& corners) {
+  constexpr double kLeastShare = 0.75;
+  int num_met = 0;
+  for (int row = 0; row < corners.rows; ++row)
+    for (int column = 0; column < corners.columns; ++column) {
+      const int above = std::max(0, row - 1), left = std::max(0, column - 1);
+      num_met += IsCorner(grey, At(corners, row, column),
+                          At(corners, row, left + 1) - At(corners, row, left),
+                          At(corners, above + 1, column) - At(corners, above, column));
+    }
+  return num_met >= kLeastShare * corners.rows * corners.columns;
+}
+
 // No corners when there is no such board. Of some draws the finder gives corners beyond the
 // board (opencv#15712), of others the right ones.
 Corners FindCorners(const cv::Mat& grey, const BoardCounts& counts, int flags) {
   constexpr unsigned kMostDraws = 6;
   for (unsigned seed = 1; seed <= kMostDraws; ++seed) {
     Corners corners = TryFindCorners(grey, counts, flags, seed);
-    if (corners.px.empty() || IsGrid(corners)) return corners;
+    if (corners.px.empty() || (IsGrid(corners) && HasSquares(grey, corners))) return corners;
   }
   return {};
 }
@@ -126,25 +169,49 @@ cv::Mat Reduced(const cv::Mat& grey) {
   return reduced;
 }
 
+// By a quarter.
+Corners Turned(const Corners& corners) {
+  Corners turned{{}, corners.columns, corners.rows};
+  for (int row = 0; row < turned.rows; ++row)
+    for (int column = 0; column < turned.columns; ++column)
+      turned.px.push_back(
+          corners.px[static_cast<size_t>((corners.rows - 1 - column) * corners.columns + row)]);
+  return turned;
+}
+
+// One more row behind the last one, where the picture has it.
+bool AddRow(const cv::Mat& grey, Corners* corners) {
+  constexpr double kLeastShare = 0.8;
+  const int last = corners->rows - 1;
+  std::vector<cv::Point2f> row;
+  int num_met = 0;
+  for (int column = 0; column < corners->columns; ++column) {
+    const Eigen::Vector2d before = At(*corners, last, column);
+    const Eigen::Vector2d x_px =
+        Beyond(At(*corners, last - 2, column), At(*corners, last - 1, column), before);
+    const int left = std::max(0, column - 1);
+    num_met += IsCorner(grey, x_px, At(*corners, last, left + 1) - At(*corners, last, left),
+                        x_px - before);
+    row.emplace_back(x_px.x(), x_px.y());
+  }
+  if (num_met < kLeastShare * corners->columns || last + 2 > kMostCorners) return false;
+  corners->px.insert(corners->px.end(), row.begin(), row.end());
+  ++corners->rows;
+  RefineCorners(grey, corners);
+  return true;
+}
+
 // All of the board of which a part has been found: in a larger board the finder takes a part for
-// the one that is looked for. CALIB_CB_LARGER misses some that a search for their size finds.
-BoardCounts WholeBoard(const cv::Mat& reduced, BoardCounts part) {
-  const Corners whole =
-      FindCorners(reduced, part, cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_LARGER);
-  if (!whole.px.empty()) part = {whole.rows, whole.columns};
+// the one that is looked for.
+BoardCounts WholeBoard(const cv::Mat& grey, Corners part) {
   for (bool grows = true; grows;) {
     grows = false;
-    for (const auto& [rows, columns] : {std::pair{1, 1}, {1, 0}, {0, 1}}) {
-      const BoardCounts larger{part.rows + rows, part.columns + columns};
-      if (std::max(larger.rows, larger.columns) > kMostCorners ||
-          FindCorners(reduced, larger, kFlags).px.empty())
-        continue;
-      part = larger;
-      grows = true;
-      break;
+    for (int side = 0; side < 4; ++side) {
+      while (AddRow(grey, &part)) grows = true;
+      part = Turned(part);
     }
   }
-  return part;
+  return {part.rows, part.columns};
 }
 
 }  // namespace
@@ -180,6 +247,8 @@ BoardView ChessboardFinder::Find(const cv::Mat& grey) {
   MakeRightHanded(&corners);
   RefineCorners(grey, &corners);
   BoardView view;
+  const BoardCounts whole = WholeBoard(grey, corners);
+  if (whole != counts()) view.part_of = AsSaid(whole);
   view.ids.resize(corners.px.size());
   std::iota(view.ids.begin(), view.ids.end(), 0);
   view.corners_px.resize(2, static_cast<Eigen::Index>(corners.px.size()));
@@ -198,19 +267,24 @@ BoardAbsence ChessboardFinder::Explain(const cv::Mat& grey) {
     candidates.push_back({chessboard_.rows + rows, chessboard_.columns + columns});
   for (const BoardCounts& candidate : candidates) {
     if (std::min(candidate.rows, candidate.columns) < kFewestCorners) continue;
-    if (FindCorners(reduced, candidate, kFlags).px.empty()) continue;
-    const BoardCounts whole = WholeBoard(reduced, candidate);
-    if (whole == counts()) return {};
+    const Corners part = FindCorners(reduced, candidate, kFlags);
+    if (part.px.empty()) continue;
+    const BoardCounts whole = AsSaid(WholeBoard(reduced, part));
+    if (whole == AsSaid(counts())) return {};
     if (std::find(seen_.begin(), seen_.end(), whole) == seen_.end()) seen_.push_back(whole);
-    return {whole};
+    return {.seen = whole};
   }
   // Any board, of which it may see a part only.
   const Corners any = FindCorners(reduced, {kFewestCorners, kFewestCorners},
                                   cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_LARGER);
   if (any.px.empty()) return {};
-  BoardCounts counts{std::min(any.rows, any.columns), std::max(any.rows, any.columns)};
-  if (chessboard_.rows > chessboard_.columns) std::swap(counts.rows, counts.columns);
-  return {counts};
+  return {.seen = AsSaid(WholeBoard(reduced, any))};
+}
+
+BoardCounts ChessboardFinder::AsSaid(BoardCounts seen) const {
+  if ((seen.rows > seen.columns) != (chessboard_.rows > chessboard_.columns))
+    std::swap(seen.rows, seen.columns);
+  return seen;
 }
 
 }  // namespace poselift

@@ -39,6 +39,9 @@ class ChessboardFinder : public BoardFinder {
   BoardAbsence Explain(const cv::Mat& grey) override;
 
  private:
+  // The lesser count first, or last, as it is said.
+  BoardCounts AsSaid(BoardCounts seen) const;
+
   Chessboard chessboard_;
   CalibrationBoard board_;
   std::vector<BoardCounts> seen_;

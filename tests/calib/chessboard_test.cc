@@ -78,6 +78,18 @@ TEST(ChessboardTest, WrongCountsAreSeen) {
   }
 }
 
+// Where the finder takes a part for the board, the view says so; else the board is seen whole.
+TEST(ChessboardTest, APartOfALargerBoardIsNoBoard) {
+  const cv::Mat picture = Picture(Before(0, 0, 0.6, 0.3, 0.1));
+  for (const BoardCounts& part : {BoardCounts{3, 3}, {4, 4}, {4, 5}, {3, 5}}) {
+    ChessboardFinder finder({part.rows, part.columns, 0.06});
+    const BoardView view = finder.Find(picture);
+    const auto seen = view.empty() ? finder.Explain(picture).seen : view.part_of;
+    EXPECT_EQ(seen, (BoardCounts{4, 7})) << part.rows << " x " << part.columns;
+  }
+  EXPECT_FALSE(ChessboardFinder(kBoard).Find(picture).part_of.has_value());
+}
+
 TEST(ChessboardTest, NoBoardIsSeenWhereThereIsNone) {
   ChessboardFinder finder(kBoard);
   cv::Mat noise(480, 640, CV_8UC1);

@@ -96,7 +96,7 @@ SurveyedViews SurveyPictures(const std::vector<fs::path>& paths, BoardFinder* fi
       surveyed.survey.absences.push_back(found[i].absence);
       continue;
     }
-    ++surveyed.survey.num_found;
+    surveyed.survey.AddFound(found[i].view);
     surveyed.views.push_back(found[i].view);
   }
   return surveyed;
@@ -132,8 +132,8 @@ SurveyedViews Chosen(const ViewChooser& chooser, const Absences& absences, cv::S
   for (const ChosenView& view : chooser.SharpViews()) {
     surveyed.pictures.push_back({fmt::format("frame {} ({:.2f} s)", view.frame, view.time_s), ""});
     surveyed.views.push_back(view.view);
+    surveyed.survey.AddFound(view.view);
   }
-  surveyed.survey.num_found = static_cast<int>(surveyed.views.size());
   if (surveyed.views.size() < 3) absences.Explain(finder, &surveyed.survey);
   return surveyed;
 }

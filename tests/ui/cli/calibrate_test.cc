@@ -88,6 +88,18 @@ TEST(RealCamera, WrongCountsAreMeasured) {
   EXPECT_THAT(run.err, HasSubstr("not the squares"));
 }
 
+TEST(RealCamera, ABoardSaidSmallerOrLargerIsSeenAsItIs) {
+  POSELIFT_DATA_OR_SKIP(data);
+  const std::string photo = (data / "calibration/cam02/cam02_0").string();
+  const std::string photos = photo + "1_int.jpg " + photo + "2_int.jpg " + photo + "7_int.jpg ";
+  for (const char* said : {"3x6", "3x7", "4x8"}) {
+    const auto run = RunProgram("calibrate " + photos + "--corners " + said + " --square-mm 60");
+    EXPECT_EQ(run.code, 1) << said;
+    EXPECT_THAT(run.err, HasSubstr("I see 4 x 7 inner corners in 3 of 3 pictures")) << said;
+    EXPECT_THAT(run.err, HasSubstr("say 4 x 7")) << said;
+  }
+}
+
 // Rendered views, as pictures 1.png, 2.png, ... in a folder.
 Camera SmallCamera() { return {640, 480, 560.0, 560.0, 322.0, 238.0, {.k1 = -0.1, .k2 = 0.03}}; }
 
