@@ -76,18 +76,19 @@ std::optional<double> GreyAt(const cv::Mat& grey, const Eigen::Vector2d& x_px) {
   return cv::mean(grey(about))[0];
 }
 
-// Whether four squares meet there, of two greys in turn. The edges of the squares lead
-// `across` and `down` from there.
-bool IsCorner(const cv::Mat& grey, const Eigen::Vector2d& x_px, const Eigen::Vector2d& across_px,
-              const Eigen::Vector2d& down_px) {
+// 1 or -1 where four squares meet, of two greys in turn, 1 when those along the edges' sum are
+// the lighter ones; else 0. The edges of the squares lead `across` and `down` from there.
+int CornerSign(const cv::Mat& grey, const Eigen::Vector2d& x_px, const Eigen::Vector2d& across_px,
+               const Eigen::Vector2d& down_px) {
   constexpr double kLeastContrast = 20.0, kMostUnlike = 0.5;
   const Eigen::Vector2d falling = 0.3 * (across_px + down_px), rising = 0.3 * (across_px - down_px);
   const auto a = GreyAt(grey, x_px + falling), b = GreyAt(grey, x_px - falling);
   const auto c = GreyAt(grey, x_px + rising), d = GreyAt(grey, x_px - rising);
-  if (!a || !b || !c || !d) return false;
-  const double contrast = 0.5 * std::abs(*a + *b - *c - *d);
-  return contrast > kLeastContrast &&
-         std::max(std::abs(*a - *b), std::abs(*c - *d)) < kMostUnlike * contrast;
+  if (!a || !b || !c || !d) return 0;
+  const double contrast = 0.5 * (*a + *b - *c - *d);
+  const double unlike = std::max(std::abs(*a - *b), std::abs(*c - *d));
+  if (std::abs(contrast) < kLeastContrast || unlike > kMostUnlike * std::abs(contrast)) return 0;
+  return contrast > 0.0 ? 1 : -1;
 }
 
 // Where three in a row lead, in perspective.
@@ -96,19 +97,20 @@ Eigen::Vector2d Beyond(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
   return 3.0 * (c - b) + a;
 }
 
-// Most corners are where squares meet. The finder gives some boards rows that they do not have,
-// and lines that run aslant through a larger board.
+// Most corners are where squares meet, dark and light in turn. The finder gives some boards rows
+// that they do not have, and takes every second one, or aslant ones, of a larger board.
 bool HasSquares(const cv::Mat& grey, const Corners& corners) {
   constexpr double kLeastShare = 0.75;
-  int num_met = 0;
+  int sum = 0;
   for (int row = 0; row < corners.rows; ++row)
     for (int column = 0; column < corners.columns; ++column) {
       const int above = std::max(0, row - 1), left = std::max(0, column - 1);
-      num_met += IsCorner(grey, At(corners, row, column),
-                          At(corners, row, left + 1) - At(corners, row, left),
-                          At(corners, above + 1, column) - At(corners, above, column));
+      const int sign = CornerSign(grey, At(corners, row, column),
+                                  At(corners, row, left + 1) - At(corners, row, left),
+                                  At(corners, above + 1, column) - At(corners, above, column));
+      sum += (row + column) % 2 == 0 ? sign : -sign;
     }
-  return num_met >= kLeastShare * corners.rows * corners.columns;
+  return std::abs(sum) >= kLeastShare * corners.rows * corners.columns;
 }
 
 // No corners when there is no such board. Of some draws the finder gives corners beyond the
@@ -184,17 +186,18 @@ bool AddRow(const cv::Mat& grey, Corners* corners) {
   constexpr double kLeastShare = 0.8;
   const int last = corners->rows - 1;
   std::vector<cv::Point2f> row;
-  int num_met = 0;
+  int sum = 0;
   for (int column = 0; column < corners->columns; ++column) {
     const Eigen::Vector2d before = At(*corners, last, column);
     const Eigen::Vector2d x_px =
         Beyond(At(*corners, last - 2, column), At(*corners, last - 1, column), before);
     const int left = std::max(0, column - 1);
-    num_met += IsCorner(grey, x_px, At(*corners, last, left + 1) - At(*corners, last, left),
-                        x_px - before);
+    const int sign = CornerSign(grey, x_px, At(*corners, last, left + 1) - At(*corners, last, left),
+                                x_px - before);
+    sum += column % 2 == 0 ? sign : -sign;
     row.emplace_back(x_px.x(), x_px.y());
   }
-  if (num_met < kLeastShare * corners->columns || last + 2 > kMostCorners) return false;
+  if (std::abs(sum) < kLeastShare * corners->columns || last + 2 > kMostCorners) return false;
   corners->px.insert(corners->px.end(), row.begin(), row.end());
   ++corners->rows;
   RefineCorners(grey, corners);
