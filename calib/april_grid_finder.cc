@@ -6,7 +6,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numeric>
 #include <opencv2/core.hpp>
 #include <optional>
 
@@ -21,12 +20,6 @@ constexpr size_t kFewestTags = 2;
 AprilGrid Checked(const AprilGrid& grid) {
   if (const std::string flaw = grid.Validate(); !flaw.empty()) throw InputError(flaw);
   return grid;
-}
-
-std::vector<int> IdsOf(const AprilGrid& grid) {
-  std::vector<int> ids(static_cast<size_t>(grid.num_tags()));
-  std::iota(ids.begin(), ids.end(), grid.first_id);
-  return ids;
 }
 
 // All tags are the grid's.
@@ -71,6 +64,7 @@ bool LieAsOn(const AprilGrid& grid, const std::vector<TagDetection>& tags) {
 // the highest that is seen.
 std::optional<BoardCounts> CountsSeen(const AprilGrid& grid,
                                       const std::vector<TagDetection>& tags) {
+  if (tags.size() < kFewestTags + 1) return std::nullopt;
   const int highest = tags.back().id - grid.first_id;
   for (int columns = 1; columns <= std::max(grid.columns, highest) + 1; ++columns) {
     AprilGrid other = grid;
@@ -81,12 +75,23 @@ std::optional<BoardCounts> CountsSeen(const AprilGrid& grid,
   return std::nullopt;
 }
 
+// Those before it cannot be on it, whatever its rows and columns are.
+std::vector<TagDetection> FromFirstOf(const AprilGrid& grid, std::vector<TagDetection> tags) {
+  std::erase_if(tags, [&](const TagDetection& tag) { return tag.id < grid.first_id; });
+  return tags;
+}
+
+TagRange RangeOf(const std::string& family, const std::vector<TagDetection>& tags) {
+  return {family, tags.front().id, tags.back().id};
+}
+
 }  // namespace
 
 CalibrationBoard BoardOf(const AprilGrid& grid) {
   CalibrationBoard board;
-  board.name = fmt::format("{} x {} tags of {}, {:g} mm", grid.rows, grid.columns, grid.family,
-                           1e3 * grid.tag_size_m);
+  board.name =
+      fmt::format("{} x {} tags of {}, ids {} to {}, {:g} mm", grid.rows, grid.columns, grid.family,
+                  grid.first_id, grid.first_id + grid.num_tags() - 1, 1e3 * grid.tag_size_m);
   board.corners_in_board_m.resize(2, 4 * grid.num_tags());
   const Eigen::Matrix<double, 3, 4> around_m = TagCorners_m(grid.tag_size_m);
   const Eigen::Vector2d middle_m = Eigen::Vector2d::Constant(0.5 * grid.tag_size_m);
@@ -97,28 +102,43 @@ CalibrationBoard BoardOf(const AprilGrid& grid) {
 }
 
 AprilGridFinder::AprilGridFinder(const AprilGrid& grid)
-    : grid_(Checked(grid)),
-      board_(BoardOf(grid_)),
-      family_(grid_.family),
-      detector_(family_, {.known_ids = IdsOf(grid_)}) {}
+    : grid_(Checked(grid)), board_(BoardOf(grid_)), family_(grid_.family), detector_(family_) {}
 
 BoardView AprilGridFinder::Find(const cv::Mat& grey) {
-  const std::vector<TagDetection> tags = detector_.Detect(grey);
+  const std::vector<TagDetection> all = detector_.Detect(grey);
+  std::vector<TagDetection> tags = all;
+  std::erase_if(tags, [&](const TagDetection& tag) { return !grid_.Has(tag.id); });
   if (tags.size() < kFewestTags || !LieAsOn(grid_, tags)) return {};
-  return ViewOf(grid_, tags);
+  BoardView view = ViewOf(grid_, tags);
+  if (all.back().id >= grid_.first_id + grid_.num_tags())
+    view.part_of = CountsSeen(grid_, FromFirstOf(grid_, all));
+  return view;
 }
 
 BoardAbsence AprilGridFinder::Explain(const cv::Mat& grey) {
-  TagDetector all(family_);
-  std::vector<TagDetection> tags = all.Detect(grey);
-  if (tags.empty()) {
+  const std::vector<TagDetection> tags = detector_.Detect(grey);
+  if (tags.size() < kFewestTags) {
     cv::Mat mirrored;
     cv::flip(grey, mirrored, 1);
-    return {.is_mirrored = all.Detect(mirrored).size() >= kFewestTags};
+    if (detector_.Detect(mirrored).size() >= kFewestTags) return {.is_mirrored = true};
+    return {.others = OtherFamily(grey)};
   }
-  std::erase_if(tags, [&](const TagDetection& tag) { return tag.id < grid_.first_id; });
-  if (tags.size() < kFewestTags + 1) return {};
-  return {.seen = CountsSeen(grid_, tags)};
+  if (const auto seen = CountsSeen(grid_, FromFirstOf(grid_, tags))) return {.seen = seen};
+  return {.others = RangeOf(grid_.family, tags)};
+}
+
+std::optional<TagRange> AprilGridFinder::OtherFamily(const cv::Mat& grey) {
+  std::optional<TagRange> most;
+  size_t num_most = kFewestTags - 1;
+  for (const std::string& name : other_families_) {
+    const std::vector<TagDetection> tags = TagDetector(TagFamily(name)).Detect(grey);
+    if (tags.size() <= num_most) continue;
+    num_most = tags.size();
+    most = RangeOf(name, tags);
+  }
+  // All families take long: the next pictures show the same one.
+  if (most) other_families_ = {most->family};
+  return most;
 }
 
 }  // namespace poselift

@@ -24,17 +24,21 @@ class AprilGridFinder : public BoardFinder {
   BoardCounts counts() const override { return {grid_.rows, grid_.columns}; }
   std::string counted() const override { return "tags"; }
 
-  // Nothing as well when the tags do not lie as on the grid.
+  // Nothing as well when the tags do not lie as on the grid. It is part of a larger one when
+  // tags beside it lie as on that.
   BoardView Find(const cv::Mat& grey) override;
   // Tags that lie as on a grid of other columns, with as many rows as are seen; tags that only
-  // the mirrored picture shows.
+  // the mirrored picture shows; tags of other ids or of another family.
   BoardAbsence Explain(const cv::Mat& grey) override;
 
  private:
+  std::optional<TagRange> OtherFamily(const cv::Mat& grey);
+
   AprilGrid grid_;
   CalibrationBoard board_;
   TagFamily family_;
   TagDetector detector_;
+  std::vector<std::string> other_families_ = TagFamily::Names();  // to be looked for
 };
 
 }  // namespace poselift

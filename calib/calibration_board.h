@@ -34,10 +34,19 @@ struct BoardView {
   bool empty() const { return ids.empty(); }
 };
 
-// Why a picture shows no board: another one is seen, or a mirrored one, or neither.
+// Tags of a family, by their lowest and highest id.
+struct TagRange {
+  std::string family;
+  int first_id = 0;
+  int last_id = 0;
+};
+
+// Why a picture shows no board: another one is seen, or a mirrored one, or tags that are not
+// the board's, or none of these.
 struct BoardAbsence {
   std::optional<BoardCounts> seen;
   bool is_mirrored = false;
+  std::optional<TagRange> others;
 };
 
 // Finds one kind of board in pictures.

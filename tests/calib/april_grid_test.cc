@@ -13,6 +13,7 @@
 
 #include "calib/april_grid_finder.h"
 #include "calib/april_grid_yaml.h"
+#include "calib/board_survey.h"
 #include "calib/camera_calibration.h"
 #include "calib/camera_refinement.h"
 #include "src/input_error.h"
@@ -113,6 +114,35 @@ TEST(AprilGridTest, OtherColumnsAreSeen) {
   EXPECT_EQ(*absence.seen, (BoardCounts{4, 5}));
 }
 
+TEST(AprilGridTest, APartOfALargerGridIsToldByTheTagsBesideIt) {
+  AprilGrid part = Grid();
+  part.rows = 3;
+  AprilGridFinder finder(part), whole(Grid());
+  const cv::Mat picture = Picture(Before(0, 0, 0.4, 0.3));
+  const BoardView view = finder.Find(picture);
+  EXPECT_EQ(view.ids.size(), 60u);
+  EXPECT_EQ(view.part_of, (BoardCounts{4, 5}));
+  EXPECT_FALSE(whole.Find(picture).part_of.has_value());
+}
+
+TEST(AprilGridTest, OtherIdsAndFamiliesAreToldByTheirNames) {
+  AprilGrid other_ids = Grid(), other_family = Grid();
+  other_ids.first_id = 200;
+  other_family.family = "tag25h9";
+  const cv::Mat picture = Picture(Before(0, 0, 0.4, 0.3));
+  for (const AprilGrid& said : {other_ids, other_family}) {
+    AprilGridFinder finder(said);
+    EXPECT_TRUE(finder.Find(picture).empty());
+    const BoardAbsence absence = finder.Explain(picture);
+    ASSERT_TRUE(absence.others.has_value());
+    EXPECT_EQ(absence.others->family, "tag36h11");
+    EXPECT_EQ(absence.others->first_id, 7);
+    EXPECT_EQ(absence.others->last_id, 26);
+    EXPECT_THAT(FlawOfBoard(finder, {.absences = {absence, {}}}),
+                HasSubstr("I see tags of tag36h11 with ids 7 to 26 in 1 of 2 pictures, you said"));
+  }
+}
+
 TEST(AprilGridTest, AMirroredPictureIsToldFromOneWithoutABoard) {
   AprilGridFinder finder(Grid());
   cv::Mat picture = Picture(Before(0, 0, 0.4, 0.3));
@@ -123,6 +153,7 @@ TEST(AprilGridTest, AMirroredPictureIsToldFromOneWithoutABoard) {
   EXPECT_TRUE(finder.Find(empty).empty());
   EXPECT_FALSE(finder.Explain(empty).is_mirrored);
   EXPECT_FALSE(finder.Explain(empty).seen.has_value());
+  EXPECT_FALSE(finder.Explain(empty).others.has_value());
 }
 
 // From rendered pictures to the camera, most of them showing part of the grid only.
