@@ -2,9 +2,10 @@
 // Copyright (c) 2026 the poselift authors
 #include "src/io/camera_file.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "src/input_error.h"
 #include "src/io/camera_formats.h"
@@ -22,6 +23,22 @@ bool HasLine(const std::string& text, std::string_view beginning) {
     if (at == 0 || before == std::string::npos || text[before] == '\n') return true;
   }
   return false;
+}
+
+// "cameras.toml#cam1", where no file is called so.
+std::pair<std::filesystem::path, std::string> SplitName(const std::filesystem::path& path) {
+  const std::string text = path.string();
+  const size_t at = text.rfind('#');
+  if (at == std::string::npos || std::filesystem::exists(path)) return {path, ""};
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+void CheckIsOne(const std::filesystem::path& path) {
+  const std::vector<std::string> names = CameraNames(path);
+  if (names.size() == 1) return;
+  throw InputError(path, fmt::format("found the cameras {}, wanted one: name it behind the file, "
+                                     "as {}#{}",
+                                     fmt::join(names, ", "), path.string(), names.front()));
 }
 
 }  // namespace
@@ -62,6 +79,9 @@ std::vector<std::string> CameraNames(const std::filesystem::path& path) {
 }
 
 Camera ReadCamera(const std::filesystem::path& path, const std::string& name) {
+  if (const auto [file, named] = SplitName(path); name.empty() && !named.empty())
+    return ReadCamera(file, named);
+  if (name.empty()) CheckIsOne(path);
   switch (FormatOfCameraFile(path)) {
     case CameraFileFormat::kKalibr:
       return ReadKalibrCameras(path, name).chosen.camera;

@@ -23,9 +23,10 @@ const char* CameraFileFormatName(CameraFileFormat format);
 // of the table. Of a file that holds one camera without a name: the empty name.
 std::vector<std::string> CameraNames(const std::filesystem::path& path);
 
-// The camera of that name; an empty name is the first of the file. Throws InputError with
-// file:line where the file's library knows the line, for what is malformed or implausible
-// (Camera::Validate), a lens that Camera does not have, and a name that is not there.
+// The camera of that name, which may stand behind the file as well, as cameras.toml#cam1; of
+// a file with one camera it may be empty. Throws InputError with file:line where the file's library
+// knows the line, for what is malformed or implausible (Camera::Validate), a lens that Camera does
+// not have, and a name that is not there.
 Camera ReadCamera(const std::filesystem::path& path, const std::string& name = "");
 
 }  // namespace poselift

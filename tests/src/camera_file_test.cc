@@ -78,11 +78,11 @@ std::string Complaint(const std::string& file, const std::string& text,
   return "(read without complaint)";
 }
 
-TEST(CameraFile, KalibrsFirstCameraIsReadUnlessAnotherIsNamed) {
+TEST(CameraFile, KalibrsCamerasAreReadByName) {
   const auto path = WriteScratch("camchain.yaml", kKalibr);
   EXPECT_EQ(FormatOfCameraFile(path), CameraFileFormat::kKalibr);
   EXPECT_THAT(CameraNames(path), ElementsAre("cam0", "cam1"));
-  const Camera camera = ReadCamera(path);
+  const Camera camera = ReadCamera(path, "cam0");
   EXPECT_EQ(camera.width_px, 752);
   EXPECT_EQ(camera.height_px, 480);
   EXPECT_EQ(camera.fx_px, 458.6);
@@ -101,7 +101,7 @@ TEST(CameraFile, AniposesCamerasAreInTheOrderOfTheFile) {
   const auto path = WriteScratch("calibration.toml", kAnipose);
   EXPECT_EQ(FormatOfCameraFile(path), CameraFileFormat::kAnipose);
   EXPECT_THAT(CameraNames(path), ElementsAre("B", "A"));
-  const Camera camera = ReadCamera(path);
+  const Camera camera = ReadCamera(path + "#B");
   EXPECT_EQ(camera.width_px, 1280);
   EXPECT_EQ(camera.fx_px, 900.5);
   EXPECT_EQ(camera.fy_px, 901.0);
@@ -111,9 +111,19 @@ TEST(CameraFile, AniposesCamerasAreInTheOrderOfTheFile) {
               HasSubstr("calibration.toml:14: A.fisheye: found a fisheye lens"));
 }
 
+TEST(CameraFile, OfSeveralCamerasOneMustBeNamed) {
+  EXPECT_THAT(Complaint("camchain.yaml", kKalibr),
+              AllOf(HasSubstr("found the cameras cam0, cam1, wanted one"),
+                    HasSubstr("camchain.yaml#cam0")));
+  const std::string path = WriteScratch("camchain.yaml", kKalibr);
+  EXPECT_EQ(ReadCamera(path + "#cam0").fx_px, 458.6);
+  EXPECT_THROW(ReadCamera(path + "#cam7"), InputError);
+  EXPECT_EQ(ReadCamera(WriteScratch("a#b.txt", kKalibr), "cam0").fx_px, 458.6);
+}
+
 TEST(CameraFile, TheNameOfTheFileDoesNotMatter) {
-  EXPECT_EQ(ReadCamera(WriteScratch("a.txt", kKalibr)).fx_px, 458.6);
-  EXPECT_EQ(ReadCamera(WriteScratch("b.yaml", kAnipose)).fx_px, 900.5);
+  EXPECT_EQ(ReadCamera(WriteScratch("a.txt", kKalibr), "cam0").fx_px, 458.6);
+  EXPECT_EQ(ReadCamera(WriteScratch("b.yaml", kAnipose), "B").fx_px, 900.5);
 }
 
 TEST(CameraFile, RosAndOpenCvFilesAreWrittenAndRead) {

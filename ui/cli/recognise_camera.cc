@@ -32,7 +32,8 @@ bool IsCamera(const std::filesystem::path& path, std::string_view head) {
 }
 
 Json DescribeCamera(const std::filesystem::path& path) {
-  const Camera camera = ReadCamera(path);
+  const std::string first = CameraNames(path).front();
+  const Camera camera = ReadCamera(path, first);
   Json facts = {{"format", CameraFileFormatName(FormatOfCameraFile(path))}};
   if (const auto names = CameraNames(path); !names.front().empty()) {
     facts["cameras"] = names;

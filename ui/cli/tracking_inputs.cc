@@ -33,8 +33,10 @@ void AddTrackingInputs(CLI::App* command, TrackingInputs* inputs) {
       ->add_option("INPUT,--device", inputs->input,
                    "A camera (/dev/video0, or 0), a video, or a folder of pictures")
       ->required();
-  command->add_option("--camera", inputs->camera,
-                      "Calibrated camera (see poselift calibrate); without one --fov-deg is taken");
+  command->add_option(
+      "--camera", inputs->camera,
+      "Calibrated camera (see poselift calibrate), FILE#NAME in a file of several; without "
+      "one --fov-deg is taken");
   command
       ->add_option("--fov-deg", inputs->fov_deg,
                    "How wide a camera sees that nobody calibrated, horizontally, in degrees; 1 is "
