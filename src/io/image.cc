@@ -14,6 +14,8 @@
 #include <system_error>
 #include <vector>
 
+#include "src/capture/fourcc.h"
+#include "src/capture/frame_decoder.h"
 #include "src/input_error.h"
 #include "src/io/atomic_file.h"
 #include "src/io/image_size.h"
@@ -46,7 +48,7 @@ std::string ReadBytes(const fs::path& path) {
   return bytes;
 }
 
-void CheckHead(const fs::path& path, std::string_view bytes) {
+StoredImageSize CheckedHead(const fs::path& path, std::string_view bytes) {
   const auto stored = FindImageSize(bytes);
   if (!stored) throw InputError(path, "is no picture; wanted JPEG, PNG, BMP, TIFF, WebP or PNM");
   const auto [format, width_px, height_px] = *stored;
@@ -56,6 +58,21 @@ void CheckHead(const fs::path& path, std::string_view bytes) {
     throw InputError(path, fmt::format("has {} x {} pixels, wanted at most {:.0f} million; "
                                        "make it smaller",
                                        width_px, height_px, kMaxImagePixels / 1e6));
+  return *stored;
+}
+
+// OpenCV fills up with grey what a JPEG lacks, and says nothing.
+void CheckJpeg(const fs::path& path, const std::string& bytes, const StoredImageSize& stored) {
+  if (stored.format != "JPEG") return;
+  const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
+  cv::Mat grey;
+  const std::string flaw = FrameDecoder().ToGrey(
+      {kFourccJpeg, {static_cast<int>(stored.width_px), static_cast<int>(stored.height_px)}},
+      buffer, &grey);
+  // Others are of kinds that are no camera's.
+  if (flaw.find("Premature end") != std::string::npos ||
+      flaw.find("Corrupt JPEG data") != std::string::npos)
+    throw InputError(path, fmt::format("is a damaged picture: {}; take or copy it again", flaw));
 }
 
 cv::Mat Decoded(const std::string& bytes) {
@@ -73,7 +90,7 @@ cv::Mat Decoded(const std::string& bytes) {
 
 cv::Mat ReadImage(const fs::path& path) {
   const std::string bytes = ReadBytes(path);
-  CheckHead(path, bytes);
+  CheckJpeg(path, bytes, CheckedHead(path, bytes));
   cv::Mat image = Decoded(bytes);
   if (image.empty())
     throw InputError(path,

@@ -52,6 +52,7 @@ cv::Mat ReadGrey(const fs::path& path) {
 }
 
 struct FoundPicture {
+  std::string flaw;  // of a picture that cannot be read
   cv::Size size_px;
   BoardView view;
   BoardAbsence absence;
@@ -61,6 +62,7 @@ cv::Size MostFrequentSize(const std::vector<FoundPicture>& pictures) {
   std::map<std::pair<int, int>, int> times;
   cv::Size most;
   for (const FoundPicture& picture : pictures) {
+    if (!picture.flaw.empty()) continue;
     // A picture with the board tells more than one without.
     int& count = times[{picture.size_px.width, picture.size_px.height}];
     count += picture.view.empty() ? 1 : 1000;
@@ -73,8 +75,15 @@ SurveyedViews SurveyPictures(const std::vector<fs::path>& paths, BoardFinder* fi
   Progress progress("find board", static_cast<int64_t>(paths.size()), "pictures");
   std::vector<FoundPicture> found;
   for (const fs::path& path : paths) {
-    const cv::Mat grey = ReadGrey(path);
     FoundPicture& picture = found.emplace_back();
+    cv::Mat grey;
+    try {
+      grey = ReadGrey(path);
+    } catch (const InputError& error) {
+      if (paths.size() == 1) throw;
+      picture.flaw = error.what();
+      continue;
+    }
     picture.size_px = grey.size();
     picture.view = finder->Find(grey);
     if (picture.view.empty()) picture.absence = finder->Explain(grey);
@@ -82,9 +91,14 @@ SurveyedViews SurveyPictures(const std::vector<fs::path>& paths, BoardFinder* fi
   }
   SurveyedViews surveyed;
   surveyed.size_px = MostFrequentSize(found);
+  if (surveyed.size_px.empty()) throw InputError(found.front().flaw);
   for (size_t i = 0; i < paths.size(); ++i) {
     SurveyedPicture& picture = surveyed.pictures.emplace_back();
     picture.name = paths[i].filename();
+    if (!found[i].flaw.empty()) {
+      picture.skipped = found[i].flaw;
+      continue;
+    }
     if (found[i].size_px != surveyed.size_px) {
       picture.skipped =
           fmt::format("{} x {} pixels, the others have {} x {}", found[i].size_px.width,

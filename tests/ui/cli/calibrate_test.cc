@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <regex>
@@ -144,7 +145,16 @@ TEST(Calibrate, AnAprilGridIsDescribedByOptionsOrByKalibrsFile) {
   }
   const auto wrong = RunProgram("calibrate views --board aprilgrid --tags 4x3 --tag-mm 30");
   EXPECT_EQ(wrong.code, 1);
-  EXPECT_THAT(wrong.err, HasSubstr("I see 3 x 4 tags in 8 of 8 pictures, you said 4 x 3"));
+  EXPECT_THAT(wrong.err,
+              HasSubstr("I see 3 x 4 tags in 8 of 8 pictures, you said 4 x 3; rows and columns "
+                        "are exchanged"));
+  const auto less = RunProgram("calibrate views --board aprilgrid --tags 2x4 --tag-mm 30");
+  EXPECT_EQ(less.code, 1);
+  EXPECT_THAT(less.err, HasSubstr("I see 3 x 4 tags in 8 of 8 pictures, you said 2 x 4"));
+  const auto ids =
+      RunProgram("calibrate views --board aprilgrid --tags 3x4 --tag-mm 30 --first-id 50");
+  EXPECT_EQ(ids.code, 1);
+  EXPECT_THAT(ids.err, HasSubstr("I see tags of tag36h11 with ids 0 to 11 in 8 of 8 pictures"));
 }
 
 TEST(Calibrate, MirroredPicturesAreToldFromPicturesWithoutABoard) {
@@ -192,6 +202,17 @@ TEST(Calibrate, AVideoIsCalibratedFromFewOfItsFrames) {
   EXPECT_GE(report["views_used"], 6);
   EXPECT_LE(report["views_used"], 8);
   EXPECT_NEAR(ReadCamera(ScratchDir() / "camera.yaml").fx_px, 560.0, 3.0);
+}
+
+TEST(Calibrate, APictureThatIsCutShortIsSkippedByItsName) {
+  WriteViews(kChess.Board(), testing::PrintOf(kChess), 5, 0.7, false, "views");
+  std::vector<uchar> jpeg;
+  cv::imencode(".jpg", ReadImage(ScratchDir() / "views/1.png"), jpeg);
+  testing::WriteScratch("views/short.jpg",
+                        std::string(jpeg.begin(), jpeg.begin() + jpeg.size() / 2));
+  const auto run = RunProgram("calibrate views --corners 5x7 --square-mm 30");
+  EXPECT_THAT(run.out, HasSubstr("short.jpg: is a damaged picture"));
+  EXPECT_EQ(RunProgram("calibrate views/short.jpg --corners 5x7 --square-mm 30").code, 3);
 }
 
 TEST(Calibrate, WrongUsageAndUnreadableInputHaveTheirCodes) {
