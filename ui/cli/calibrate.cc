@@ -25,6 +25,7 @@
 #include "ui/cli/calibrate_report.h"
 #include "ui/cli/calibrate_views.h"
 #include "ui/cli/command.h"
+#include "ui/cli/frame_rate.h"
 #include "ui/cli/progress.h"
 #include "ui/cli/refuse_options.h"
 
@@ -151,12 +152,12 @@ void AddBoardOptions(CLI::App* command, Options* options) {
   AddCounts(command, "--corners", &options->corners,
             "Chessboard: inner corners, where four squares meet, rows x columns");
   command->add_option("--square-mm", options->square_mm, "Chessboard: edge of a square")
-      ->check(CLI::PositiveNumber);
+      ->check(IsNumber(0.1, 9999.0));
   AddCounts(command, "--tags", &options->tags, "AprilTag grid: tags, rows x columns");
   command
       ->add_option("--tag-mm", options->tag_mm,
                    "AprilTag grid: edge of a tag, between its black and its white border")
-      ->check(CLI::PositiveNumber);
+      ->check(IsNumber(0.1, 9999.0));
   command->add_option("--spacing", options->grid.spacing, "AprilTag grid: gap / edge of a tag")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -228,6 +228,9 @@ TEST(Calibrate, WrongUsageAndUnreadableInputHaveTheirCodes) {
     EXPECT_EQ(run.code, 2) << ignored;
     EXPECT_NE(run.err.find("says nothing here"), std::string::npos) << run.err;
   }
+  const auto none = RunProgram("calibrate . --corners 4x7 --square-mm 0");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err, HasSubstr("found 0, wanted"));
   const auto small = RunProgram("calibrate . --corners 2x7 --square-mm 60");
   EXPECT_EQ(small.code, 3);
   EXPECT_THAT(small.err, HasSubstr("2 x 7 inner corners, wanted 3 to 50"));
