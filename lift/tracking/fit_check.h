@@ -21,8 +21,7 @@ namespace poselift {
 std::string ImplausibleBody(const Skeleton& standard, const Skeleton& person);
 
 // The same of a fit, and of its tags: one that no pose explains, that faces another way, or that is
-// farther from where the
-// tags file has it than anything on its bone, is worn on another bone.
+// farther from where the tags file has it than anything on its bone, is worn on another bone.
 inline constexpr double kWorstFit_px = 3.0;
 inline constexpr double kFarthestMoved_mm = 250.0, kFarthestLeaned_deg = 75.0;
 std::string ImplausibleFit(const Skeleton& standard, const TagFit& fit);
