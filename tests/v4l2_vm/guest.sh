@@ -311,14 +311,11 @@ check_tags_are_tracked() {
 
 check_a_camera_is_examined() {
   control gain_automatic=1
-  "$poselift" doctor $camera --size 640x480 --rate 25 --seconds 2 --json doctor.json >out 2>err
+  "$poselift" doctor $camera --size 640x480 --rate 25 --seconds 1 --json doctor.json >out 2>err
   has "asked for +640x480 .*25 Hz"
   has "given +640x480 .*25 Hz"
   has 'YUYV' doctor.json
   has '"gain": ' doctor.json
-  "$poselift" doctor >out 2>err
-  has "^$camera: vivid"
-  has "^$loopback: loop"
 }
 
 # What came before is whole.
