@@ -16,6 +16,7 @@
 #include "src/io/labels.h"
 #include "src/io/labels_formats.h"
 #include "src/io/text_scanner.h"
+#include "src/joint_relation.h"
 #include "src/nearest_names.h"
 
 namespace poselift {
@@ -95,6 +96,43 @@ LandmarkLabel ReadLandmark(const JsonValue& json, std::string_view name) {
   return landmark;
 }
 
+constexpr std::pair<std::string_view, LabelHint::Kind> kHintKinds[] = {
+    {"nearer", LabelHint::Kind::kNearer},
+    {"towards_camera", LabelHint::Kind::kTowardsCamera},
+    {"away_from_camera", LabelHint::Kind::kAwayFromCamera},
+    {"on_floor", LabelHint::Kind::kOnFloor},
+    {"height", LabelHint::Kind::kHeight},
+    {"pin", LabelHint::Kind::kPin}};
+
+LabelHint::Kind ReadHintKind(const JsonValue& kind) {
+  std::string names;
+  for (const auto& [name, value] : kHintKinds) {
+    if (kind.String() == name) return value;
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  throw kind.Unwanted("one of " + names);
+}
+
+LabelHint ReadHint(const JsonValue& json, const Layout& layout) {
+  LabelHint hint;
+  hint.kind = ReadHintKind(json.At("kind"));
+  if (hint.kind != LabelHint::Kind::kHeight) hint.joint = json.At("joint").String();
+  if (hint.kind == LabelHint::Kind::kNearer) hint.other = json.At("than").String();
+  if (hint.kind == LabelHint::Kind::kHeight)
+    hint.metres_m = json.At("metres").Number();
+  else if (const JsonValue* metres = json.Find("metres"))
+    hint.metres_m = metres->Number();
+  if (hint.kind == LabelHint::Kind::kPin) {
+    const JsonValue& place = json.At("x_in_cam");
+    if (place.Items().size() != 3) throw place.Unwanted("three metres from the pelvis");
+    for (Eigen::Index i = 0; i < 3; ++i)
+      hint.x_in_cam_m[i] = place.Items()[static_cast<size_t>(i)].Number();
+  }
+  if (const std::string error = WhatIsWrongWith(hint, layout); !error.empty())
+    throw json.Error(error);
+  return hint;
+}
+
 PersonLabels ReadPerson(const JsonValue& json, const Layout& layout, int index) {
   PersonLabels person;
   person.id = index;
@@ -110,6 +148,8 @@ PersonLabels ReadPerson(const JsonValue& json, const Layout& layout, int index) 
       throw landmark.Error(fmt::format("found the joint {} under two names, wanted one", name));
     person.landmarks.push_back(ReadLandmark(landmark, name));
   }
+  if (const JsonValue* hints = json.Find("hints"))
+    for (const JsonValue& hint : hints->Items()) person.hints.push_back(ReadHint(hint, layout));
   return person;
 }
 
@@ -157,13 +197,41 @@ void AppendLandmark(const LandmarkLabel& landmark, std::string* out) {
   *out += "}";
 }
 
+void AppendHint(const LabelHint& hint, std::string* out) {
+  const auto* kind = std::find_if(std::begin(kHintKinds), std::end(kHintKinds),
+                                  [&](const auto& named) { return named.second == hint.kind; });
+  *out += fmt::format("{{\"kind\": \"{}\"", kind->first);
+  const auto append_name = [&](const char* key, const std::string& name) {
+    if (name.empty()) return;
+    *out += fmt::format(", \"{}\": ", key);
+    AppendJsonString(name, out);
+  };
+  append_name("joint", hint.joint);
+  append_name("than", hint.other);
+  if (hint.metres_m) {
+    *out += ", \"metres\": ";
+    AppendNumber(*hint.metres_m, out);
+  }
+  if (hint.kind == LabelHint::Kind::kPin)
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      *out += i == 0 ? ", \"x_in_cam\": [" : ", ";
+      AppendNumber(hint.x_in_cam_m[i], out);
+    }
+  *out += hint.kind == LabelHint::Kind::kPin ? "]}" : "}";
+}
+
 void AppendPerson(const PersonLabels& person, std::string* out) {
   *out += fmt::format("    {{\"id\": {}, \"joints\": {{", person.id);
   for (size_t i = 0; i < person.landmarks.size(); ++i) {
     if (i > 0) *out += ", ";
     AppendLandmark(person.landmarks[i], out);
   }
-  *out += "}}";
+  *out += "}";
+  for (size_t i = 0; i < person.hints.size(); ++i) {
+    *out += i > 0 ? ", " : ", \"hints\": [";
+    AppendHint(person.hints[i], out);
+  }
+  *out += person.hints.empty() ? "}" : "]}";
 }
 
 void AppendFrame(const FrameLabels& frame, std::string* out) {
