@@ -20,7 +20,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const Layout& Body15() { return *FindLayout("body15"); }
+const Layout& Joints23() { return *FindLayout("joints23"); }
 
 // A body in the picture's plane, its left hand 30 cm towards the camera.
 Pose3 Pose() {
@@ -34,7 +34,7 @@ Pose3 Pose() {
 }
 
 std::vector<int> Unmet(const std::vector<LabelHint>& hints, const Pose3& pose = Pose()) {
-  return UnmetHints(RelationsOf(hints, Body15()), pose);
+  return UnmetHints(RelationsOf(hints, Joints23()), pose);
 }
 
 TEST(JointRelation, NearerIsMetByDepthAndByHowMuch) {
@@ -42,7 +42,7 @@ TEST(JointRelation, NearerIsMetByDepthAndByHowMuch) {
   EXPECT_THAT(Unmet({{Kind::kNearer, "right_wrist", "left_wrist"}}), ElementsAre(0));
   EXPECT_THAT(Unmet({{Kind::kNearer, "left_wrist", "neck", 0.25}}), IsEmpty());
   EXPECT_THAT(Unmet({{Kind::kNearer, "left_wrist", "neck", 0.4}}), ElementsAre(0));
-  const auto relations = RelationsOf({{Kind::kNearer, "left_wrist", "neck", 0.4}}, Body15());
+  const auto relations = RelationsOf({{Kind::kNearer, "left_wrist", "neck", 0.4}}, Joints23());
   ASSERT_EQ(relations.size(), 1u);
   EXPECT_NEAR(relations[0].Residual(Pose()), -0.1 / relations[0].sigma_m, 1e-9);
 }
@@ -85,6 +85,19 @@ TEST(JointRelation, APinIsThreeRowsFromThePelvis) {
   }
 }
 
+TEST(JointRelation, ALandmarkIsTheSumOfItsJoints) {
+  const Layout& layout = *FindLayout("body15");
+  const auto relations = RelationsOf({{Kind::kNearer, "left_wrist", "neck", 0.0}}, layout);
+  ASSERT_EQ(relations.size(), 1u);
+  Pose3 pose = Pose3::Random(3, kNumJoints);
+  const auto depth_m = [&](const char* name) {
+    return SumOfJoints(layout.landmarks[*layout.Find(name)].parts, pose).z();
+  };
+  if (depth_m("neck") > depth_m("left_wrist")) pose.row(2) *= -1.0;
+  EXPECT_NEAR(relations[0].Residual(pose),
+              (depth_m("neck") - depth_m("left_wrist")) / relations[0].sigma_m, 1e-9);
+}
+
 TEST(JointRelation, MovingTheBodyChangesNothing) {
   const std::vector<LabelHint> hints = {{Kind::kNearer, "left_wrist", "neck"},
                                         {Kind::kTowardsCamera, "left_knee"},
@@ -93,14 +106,14 @@ TEST(JointRelation, MovingTheBodyChangesNothing) {
                                         {Kind::kPin, "head", "", {}, {0.1, 0.2, 0.3}}};
   Pose3 moved = Pose();
   moved.colwise() += Eigen::Vector3d(1.0, 2.0, 3.0);
-  for (const JointRelation& relation : RelationsOf(hints, Body15()))
+  for (const JointRelation& relation : RelationsOf(hints, Joints23()))
     EXPECT_NEAR(relation.Residual(Pose()), relation.Residual(moved), 1e-9);
 }
 
 TEST(JointRelation, OfHintsThatAreNoneAreRefused) {
   const auto complaint = [](const LabelHint& hint) -> std::string {
     try {
-      RelationsOf({hint}, Body15());
+      RelationsOf({hint}, Joints23());
     } catch (const InputError& error) {
       return error.what();
     }
@@ -123,11 +136,11 @@ TEST(RelationOptions, ValidateNamesTheOptionThatIsWrong) {
 }
 
 TEST(Observe, HintsAreRelationsAndTheStature) {
-  PersonLabels labels{0, {{"neck", {1.0, 2.0}, LabelState::kVisible, {}}}};
-  EXPECT_TRUE(Observe(labels, Body15()).relations.empty());
-  EXPECT_FALSE(Observe(labels, Body15()).stature_m);
+  PersonLabels labels{0, {{"thorax", {1.0, 2.0}, LabelState::kVisible, {}}}};
+  EXPECT_TRUE(Observe(labels, Joints23()).relations.empty());
+  EXPECT_FALSE(Observe(labels, Joints23()).stature_m);
   labels.hints = {{Kind::kHeight, "", "", 1.8}, {Kind::kPin, "neck", "", {}, {0.0, -0.5, 0.0}}};
-  const Observation observation = Observe(labels, Body15());
+  const Observation observation = Observe(labels, Joints23());
   EXPECT_EQ(observation.stature_m, 1.8);
   ASSERT_EQ(observation.relations.size(), 3u);
   EXPECT_EQ(observation.relations[1].hint, 1);
