@@ -123,6 +123,8 @@ std::string WhatIsWrongWith(const LabelHint& hint, const Layout& layout) {
   if (IsOfBone(hint.kind) && FindJoint(hint.joint).value_or(joint::kPelvis) == joint::kPelvis)
     return fmt::format(
         "found a bone that ends at \"{}\", wanted one of the 22 joints but the pelvis", hint.joint);
+  if (hint.metres_m && (hint.kind == Kind::kOnFloor || hint.kind == Kind::kPin))
+    return fmt::format("found metres of {}, wanted none", Describe(hint));
   if (const double metres = hint.metres_m.value_or(0.0); !(metres >= 0.0 && metres <= kFarthest_m))
     return fmt::format("found {} m, wanted 0 to {}", metres, kFarthest_m);
   if (hint.kind == Kind::kPin &&

@@ -133,6 +133,18 @@ LabelHint ReadHint(const JsonValue& json, const Layout& layout) {
   return hint;
 }
 
+std::vector<LabelHint> ReadHints(const JsonValue& json, const Layout& layout) {
+  std::vector<LabelHint> hints;
+  bool has_height = false;
+  for (const JsonValue& item : json.Items()) {
+    hints.push_back(ReadHint(item, layout));
+    if (hints.back().kind != LabelHint::Kind::kHeight) continue;
+    if (has_height) throw item.Error("found a second height of a person, wanted one");
+    has_height = true;
+  }
+  return hints;
+}
+
 PersonLabels ReadPerson(const JsonValue& json, const Layout& layout, int index) {
   PersonLabels person;
   person.id = index;
@@ -148,8 +160,7 @@ PersonLabels ReadPerson(const JsonValue& json, const Layout& layout, int index) 
       throw landmark.Error(fmt::format("found the joint {} under two names, wanted one", name));
     person.landmarks.push_back(ReadLandmark(landmark, name));
   }
-  if (const JsonValue* hints = json.Find("hints"))
-    for (const JsonValue& hint : hints->Items()) person.hints.push_back(ReadHint(hint, layout));
+  if (const JsonValue* hints = json.Find("hints")) person.hints = ReadHints(*hints, layout);
   return person;
 }
 
