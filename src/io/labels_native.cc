@@ -22,7 +22,6 @@ namespace poselift {
 namespace {
 
 constexpr std::string_view kFormat = "poselift-labels";
-constexpr double kLargestTime_s = 1e9;
 constexpr std::string_view kStateNames[] = {"visible", "occluded", "absent"};
 
 const JsonValue& Joints(const JsonValue& person) { return person.At("joints"); }
@@ -113,36 +112,18 @@ PersonLabels ReadPerson(const JsonValue& json, const Layout& layout, int index) 
   return person;
 }
 
-FrameLabels ReadFrame(const JsonValue& json, const Layout& layout) {
-  FrameLabels frame;
-  if (const JsonValue* image = json.Find("image")) frame.image = image->String();
-  if (const JsonValue* width = json.Find("width"))
-    frame.width_px = width->Integer(0, kLargestPicture_px);
-  if (const JsonValue* height = json.Find("height"))
-    frame.height_px = height->Integer(0, kLargestPicture_px);
-  if (const JsonValue* time = json.Find("time_s"))
-    frame.time_s = time->Number(-kLargestTime_s, kLargestTime_s);
-  if (const JsonValue* index = json.Find("frame"))
-    frame.frame = index->Integer(0, std::numeric_limits<int>::max());
-  std::set<int> ids;
-  for (const JsonValue& person : json.At("people").Items()) {
-    frame.people.push_back(ReadPerson(person, layout, static_cast<int>(frame.people.size())));
-    const int id = frame.people.back().id;
-    if (!ids.insert(id).second)
-      throw person.Error(fmt::format("found a second person with the id {}, wanted one", id));
-  }
-  return frame;
-}
+// What a piece says of absent landmarks: a labels file nothing, a change of labels where they were.
+enum class AbsentPlaces { kLeftOut, kKept };
 
 void AppendNumber(double value, std::string* out) {
   if (!std::isfinite(value)) throw std::invalid_argument("labels must be finite to be written");
   fmt::format_to(std::back_inserter(*out), "{}", value);  // the shortest that reads back equal
 }
 
-void AppendLandmark(const LandmarkLabel& landmark, std::string* out) {
+void AppendLandmark(const LandmarkLabel& landmark, AbsentPlaces absent, std::string* out) {
   AppendJsonString(landmark.name, out);
   *out += ": {";
-  if (landmark.state != LabelState::kAbsent) {
+  if (landmark.state != LabelState::kAbsent || absent == AbsentPlaces::kKept) {
     *out += "\"x\": ";
     AppendNumber(landmark.x_px.x(), out);
     *out += ", \"y\": ";
@@ -157,16 +138,25 @@ void AppendLandmark(const LandmarkLabel& landmark, std::string* out) {
   *out += "}";
 }
 
-void AppendPerson(const PersonLabels& person, std::string* out) {
+void AppendPerson(const PersonLabels& person, AbsentPlaces absent, std::string* out) {
   *out += fmt::format("    {{\"id\": {}, \"joints\": {{", person.id);
   for (size_t i = 0; i < person.landmarks.size(); ++i) {
     if (i > 0) *out += ", ";
-    AppendLandmark(person.landmarks[i], out);
+    AppendLandmark(person.landmarks[i], absent, out);
   }
   *out += "}}";
 }
 
-void AppendFrame(const FrameLabels& frame, std::string* out) {
+void AppendPeople(const std::vector<PersonLabels>& people, AbsentPlaces absent, std::string* out) {
+  *out += "[";
+  for (size_t i = 0; i < people.size(); ++i) {
+    *out += i > 0 ? ",\n" : "\n";
+    AppendPerson(people[i], absent, out);
+  }
+  *out += "]";
+}
+
+void AppendFrame(const FrameLabels& frame, AbsentPlaces absent, std::string* out) {
   *out += "  {";
   if (!frame.image.empty()) {
     *out += "\"image\": ";
@@ -181,15 +171,47 @@ void AppendFrame(const FrameLabels& frame, std::string* out) {
     *out += ", ";
   }
   if (frame.frame) *out += fmt::format("\"frame\": {}, ", *frame.frame);
-  *out += "\"people\": [";
-  for (size_t i = 0; i < frame.people.size(); ++i) {
-    *out += i > 0 ? ",\n" : "\n";
-    AppendPerson(frame.people[i], out);
-  }
-  *out += "]}";
+  *out += "\"people\": ";
+  AppendPeople(frame.people, absent, out);
+  *out += "}";
 }
 
 }  // namespace
+
+std::vector<PersonLabels> ReadNativePeople(const JsonValue& json, const Layout& layout) {
+  std::vector<PersonLabels> people;
+  std::set<int> ids;
+  for (const JsonValue& person : json.Items()) {
+    people.push_back(ReadPerson(person, layout, static_cast<int>(people.size())));
+    const int id = people.back().id;
+    if (!ids.insert(id).second)
+      throw person.Error(fmt::format("found a second person with the id {}, wanted one", id));
+  }
+  return people;
+}
+
+FrameLabels ReadNativeFrame(const JsonValue& json, const Layout& layout) {
+  FrameLabels frame;
+  if (const JsonValue* image = json.Find("image")) frame.image = image->String();
+  if (const JsonValue* width = json.Find("width"))
+    frame.width_px = width->Integer(0, kLargestPicture_px);
+  if (const JsonValue* height = json.Find("height"))
+    frame.height_px = height->Integer(0, kLargestPicture_px);
+  if (const JsonValue* time = json.Find("time_s"))
+    frame.time_s = time->Number(-kLargestTime_s, kLargestTime_s);
+  if (const JsonValue* index = json.Find("frame"))
+    frame.frame = index->Integer(0, std::numeric_limits<int>::max());
+  frame.people = ReadNativePeople(json.At("people"), layout);
+  return frame;
+}
+
+void AppendNativePeople(const std::vector<PersonLabels>& people, std::string* out) {
+  AppendPeople(people, AbsentPlaces::kKept, out);
+}
+
+void AppendNativeFrame(const FrameLabels& frame, std::string* out) {
+  AppendFrame(frame, AbsentPlaces::kKept, out);
+}
 
 bool IsNativeLabels(const JsonValue& root) {
   return root.Is(JsonValue::Kind::kObject) && root.Find("format");
@@ -204,20 +226,24 @@ Labels ReadNativeLabels(const JsonValue& root, const Layout* layout) {
   Labels labels;
   labels.layout = layout->name;
   for (const JsonValue& frame : root.At("frames").Items())
-    labels.frames.push_back(ReadFrame(frame, *layout));
+    labels.frames.push_back(ReadNativeFrame(frame, *layout));
   return labels;
 }
 
-void WriteLabels(const Labels& labels, const std::filesystem::path& path) {
+std::string LabelsText(const Labels& labels) {
   std::string text = fmt::format("{{\"format\": \"{}\", \"version\": 1, \"layout\": ", kFormat);
   AppendJsonString(labels.layout, &text);
   text += ",\n \"frames\": [";
   for (size_t i = 0; i < labels.frames.size(); ++i) {
     text += i > 0 ? ",\n" : "\n";
-    AppendFrame(labels.frames[i], &text);
+    AppendFrame(labels.frames[i], AbsentPlaces::kLeftOut, &text);
   }
   text += "]}\n";
-  WriteFileAtomically(path, text);
+  return text;
+}
+
+void WriteLabels(const Labels& labels, const std::filesystem::path& path) {
+  WriteFileAtomically(path, LabelsText(labels));
 }
 
 }  // namespace poselift
