@@ -17,8 +17,7 @@ namespace poselift {
 bool IsNativeLabels(const JsonValue& root);
 Labels ReadNativeLabels(const JsonValue& root, const Layout* layout);
 
-// Pieces of poselift-labels, for files that hold changes of labels. These also keep where an
-// absent landmark was.
+// Pieces of poselift-labels, for files that hold changes of labels.
 std::vector<PersonLabels> ReadNativePeople(const JsonValue& json, const Layout& layout);
 FrameLabels ReadNativeFrame(const JsonValue& json, const Layout& layout);
 void AppendNativePeople(const std::vector<PersonLabels>& people, std::string* out);

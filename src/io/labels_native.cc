@@ -112,18 +112,16 @@ PersonLabels ReadPerson(const JsonValue& json, const Layout& layout, int index) 
   return person;
 }
 
-// What a piece says of absent landmarks: a labels file nothing, a change of labels where they were.
-enum class AbsentPlaces { kLeftOut, kKept };
-
 void AppendNumber(double value, std::string* out) {
   if (!std::isfinite(value)) throw std::invalid_argument("labels must be finite to be written");
   fmt::format_to(std::back_inserter(*out), "{}", value);  // the shortest that reads back equal
 }
 
-void AppendLandmark(const LandmarkLabel& landmark, AbsentPlaces absent, std::string* out) {
+void AppendLandmark(const LandmarkLabel& landmark, std::string* out) {
   AppendJsonString(landmark.name, out);
   *out += ": {";
-  if (landmark.state != LabelState::kAbsent || absent == AbsentPlaces::kKept) {
+  // An absent landmark may have a place: where it was, and will be when it is seen again.
+  if (landmark.state != LabelState::kAbsent || !landmark.x_px.isZero(0.0)) {
     *out += "\"x\": ";
     AppendNumber(landmark.x_px.x(), out);
     *out += ", \"y\": ";
@@ -138,25 +136,27 @@ void AppendLandmark(const LandmarkLabel& landmark, AbsentPlaces absent, std::str
   *out += "}";
 }
 
-void AppendPerson(const PersonLabels& person, AbsentPlaces absent, std::string* out) {
+void AppendPerson(const PersonLabels& person, std::string* out) {
   *out += fmt::format("    {{\"id\": {}, \"joints\": {{", person.id);
   for (size_t i = 0; i < person.landmarks.size(); ++i) {
     if (i > 0) *out += ", ";
-    AppendLandmark(person.landmarks[i], absent, out);
+    AppendLandmark(person.landmarks[i], out);
   }
   *out += "}}";
 }
 
-void AppendPeople(const std::vector<PersonLabels>& people, AbsentPlaces absent, std::string* out) {
+}  // namespace
+
+void AppendNativePeople(const std::vector<PersonLabels>& people, std::string* out) {
   *out += "[";
   for (size_t i = 0; i < people.size(); ++i) {
     *out += i > 0 ? ",\n" : "\n";
-    AppendPerson(people[i], absent, out);
+    AppendPerson(people[i], out);
   }
   *out += "]";
 }
 
-void AppendFrame(const FrameLabels& frame, AbsentPlaces absent, std::string* out) {
+void AppendNativeFrame(const FrameLabels& frame, std::string* out) {
   *out += "  {";
   if (!frame.image.empty()) {
     *out += "\"image\": ";
@@ -172,11 +172,9 @@ void AppendFrame(const FrameLabels& frame, AbsentPlaces absent, std::string* out
   }
   if (frame.frame) *out += fmt::format("\"frame\": {}, ", *frame.frame);
   *out += "\"people\": ";
-  AppendPeople(frame.people, absent, out);
+  AppendNativePeople(frame.people, out);
   *out += "}";
 }
-
-}  // namespace
 
 std::vector<PersonLabels> ReadNativePeople(const JsonValue& json, const Layout& layout) {
   std::vector<PersonLabels> people;
@@ -205,14 +203,6 @@ FrameLabels ReadNativeFrame(const JsonValue& json, const Layout& layout) {
   return frame;
 }
 
-void AppendNativePeople(const std::vector<PersonLabels>& people, std::string* out) {
-  AppendPeople(people, AbsentPlaces::kKept, out);
-}
-
-void AppendNativeFrame(const FrameLabels& frame, std::string* out) {
-  AppendFrame(frame, AbsentPlaces::kKept, out);
-}
-
 bool IsNativeLabels(const JsonValue& root) {
   return root.Is(JsonValue::Kind::kObject) && root.Find("format");
 }
@@ -236,7 +226,7 @@ std::string LabelsText(const Labels& labels) {
   text += ",\n \"frames\": [";
   for (size_t i = 0; i < labels.frames.size(); ++i) {
     text += i > 0 ? ",\n" : "\n";
-    AppendFrame(labels.frames[i], AbsentPlaces::kLeftOut, &text);
+    AppendNativeFrame(labels.frames[i], &text);
   }
   text += "]}\n";
   return text;

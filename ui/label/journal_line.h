@@ -29,9 +29,9 @@ FileStamp StampOf(std::string_view bytes);
 //   {"step": "undo"}                 {"step": "redo"}
 //   {"step": "saving", "file": ...}  the labels as they are here are about to be the file's
 //   {"step": "saved", "file": ...}   they are
-// PERSON and FRAME are those of poselift-labels (docs/FORMATS.md), with the places of absent
-// landmarks; frames count from 0. An edit also says what was there before: the file may be of any
-// moment, and the way leads from it in both directions.
+// PERSON and FRAME are those of poselift-labels (docs/FORMATS.md); frames count from 0. An edit
+// also says what was there before: the file may be of any moment, and the way leads from it in both
+// directions.
 struct JournalLine {
   enum class Kind { kEdit, kUndo, kRedo, kSaving, kSaved };
 

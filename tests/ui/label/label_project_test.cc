@@ -354,6 +354,25 @@ TEST(LabelProject, AReadOnlyFolderIsSaidAtOnce) {
   EXPECT_EQ(LabelProject(file).history().UndoName(), "place left knee");
 }
 
+// It is nowhere but in the file when no step is left that says it.
+TEST(LabelProject, WhatIsAbsentKeepsItsPlaceBeyondTheJournal) {
+  const fs::path file = NewFile();
+  LabelProject::Options options;
+  options.longest_journal = 1;
+  {
+    LabelProject project(file, options);
+    project.Apply(Place(project, "left_knee"));
+    project.Apply(SetLandmarkState(project.labels(), {0, 0}, "left_knee", LabelState::kAbsent));
+    project.Save();
+  }
+  LabelProject project(file, options);
+  EXPECT_EQ(project.history().NumSteps(), 0u);
+  project.Apply(CycleLandmarkState(project.labels(), {0, 0}, "left_knee"));
+  const LandmarkLabel* knee = FindLandmark(project.labels(), {0, 0}, "left_knee");
+  EXPECT_EQ(knee->state, LabelState::kVisible);
+  EXPECT_FALSE(knee->x_px.isZero());
+}
+
 TEST(LabelProject, ALongJournalIsShortenedOnSaving) {
   const fs::path file = NewFile();
   LabelProject::Options options;
