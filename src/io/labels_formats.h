@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "src/io/json_value.h"
 #include "src/labels.h"
@@ -15,6 +16,14 @@ namespace poselift {
 
 bool IsNativeLabels(const JsonValue& root);
 Labels ReadNativeLabels(const JsonValue& root, const Layout* layout);
+
+// Pieces of poselift-labels, for files that hold changes of labels.
+std::vector<PersonLabels> ReadNativePeople(const JsonValue& json, const Layout& layout);
+FrameLabels ReadNativeFrame(const JsonValue& json, const Layout& layout);
+void AppendNativePeople(const std::vector<PersonLabels>& people, std::string* out);
+void AppendNativeFrame(const FrameLabels& frame, std::string* out);
+// Bound of a time in seconds.
+inline constexpr double kLargestTime_s = 1e9;
 
 bool IsCocoLabels(const JsonValue& root);
 Labels ReadCocoLabels(const JsonValue& root, const Layout* layout);

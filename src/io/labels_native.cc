@@ -23,7 +23,6 @@ namespace poselift {
 namespace {
 
 constexpr std::string_view kFormat = "poselift-labels";
-constexpr double kLargestTime_s = 1e9;
 constexpr std::string_view kStateNames[] = {"visible", "occluded", "absent"};
 
 const JsonValue& Joints(const JsonValue& person) { return person.At("joints"); }
@@ -164,27 +163,6 @@ PersonLabels ReadPerson(const JsonValue& json, const Layout& layout, int index) 
   return person;
 }
 
-FrameLabels ReadFrame(const JsonValue& json, const Layout& layout) {
-  FrameLabels frame;
-  if (const JsonValue* image = json.Find("image")) frame.image = image->String();
-  if (const JsonValue* width = json.Find("width"))
-    frame.width_px = width->Integer(0, kLargestPicture_px);
-  if (const JsonValue* height = json.Find("height"))
-    frame.height_px = height->Integer(0, kLargestPicture_px);
-  if (const JsonValue* time = json.Find("time_s"))
-    frame.time_s = time->Number(-kLargestTime_s, kLargestTime_s);
-  if (const JsonValue* index = json.Find("frame"))
-    frame.frame = index->Integer(0, std::numeric_limits<int>::max());
-  std::set<int> ids;
-  for (const JsonValue& person : json.At("people").Items()) {
-    frame.people.push_back(ReadPerson(person, layout, static_cast<int>(frame.people.size())));
-    const int id = frame.people.back().id;
-    if (!ids.insert(id).second)
-      throw person.Error(fmt::format("found a second person with the id {}, wanted one", id));
-  }
-  return frame;
-}
-
 void AppendNumber(double value, std::string* out) {
   if (!std::isfinite(value)) throw std::invalid_argument("labels must be finite to be written");
   fmt::format_to(std::back_inserter(*out), "{}", value);  // the shortest that reads back equal
@@ -193,7 +171,8 @@ void AppendNumber(double value, std::string* out) {
 void AppendLandmark(const LandmarkLabel& landmark, std::string* out) {
   AppendJsonString(landmark.name, out);
   *out += ": {";
-  if (landmark.state != LabelState::kAbsent) {
+  // An absent landmark may have a place: where it was, and will be when it is seen again.
+  if (landmark.state != LabelState::kAbsent || !landmark.x_px.isZero(0.0)) {
     *out += "\"x\": ";
     AppendNumber(landmark.x_px.x(), out);
     *out += ", \"y\": ";
@@ -245,7 +224,18 @@ void AppendPerson(const PersonLabels& person, std::string* out) {
   *out += person.hints.empty() ? "}" : "]}";
 }
 
-void AppendFrame(const FrameLabels& frame, std::string* out) {
+}  // namespace
+
+void AppendNativePeople(const std::vector<PersonLabels>& people, std::string* out) {
+  *out += "[";
+  for (size_t i = 0; i < people.size(); ++i) {
+    *out += i > 0 ? ",\n" : "\n";
+    AppendPerson(people[i], out);
+  }
+  *out += "]";
+}
+
+void AppendNativeFrame(const FrameLabels& frame, std::string* out) {
   *out += "  {";
   if (!frame.image.empty()) {
     *out += "\"image\": ";
@@ -260,15 +250,37 @@ void AppendFrame(const FrameLabels& frame, std::string* out) {
     *out += ", ";
   }
   if (frame.frame) *out += fmt::format("\"frame\": {}, ", *frame.frame);
-  *out += "\"people\": [";
-  for (size_t i = 0; i < frame.people.size(); ++i) {
-    *out += i > 0 ? ",\n" : "\n";
-    AppendPerson(frame.people[i], out);
-  }
-  *out += "]}";
+  *out += "\"people\": ";
+  AppendNativePeople(frame.people, out);
+  *out += "}";
 }
 
-}  // namespace
+std::vector<PersonLabels> ReadNativePeople(const JsonValue& json, const Layout& layout) {
+  std::vector<PersonLabels> people;
+  std::set<int> ids;
+  for (const JsonValue& person : json.Items()) {
+    people.push_back(ReadPerson(person, layout, static_cast<int>(people.size())));
+    const int id = people.back().id;
+    if (!ids.insert(id).second)
+      throw person.Error(fmt::format("found a second person with the id {}, wanted one", id));
+  }
+  return people;
+}
+
+FrameLabels ReadNativeFrame(const JsonValue& json, const Layout& layout) {
+  FrameLabels frame;
+  if (const JsonValue* image = json.Find("image")) frame.image = image->String();
+  if (const JsonValue* width = json.Find("width"))
+    frame.width_px = width->Integer(0, kLargestPicture_px);
+  if (const JsonValue* height = json.Find("height"))
+    frame.height_px = height->Integer(0, kLargestPicture_px);
+  if (const JsonValue* time = json.Find("time_s"))
+    frame.time_s = time->Number(-kLargestTime_s, kLargestTime_s);
+  if (const JsonValue* index = json.Find("frame"))
+    frame.frame = index->Integer(0, std::numeric_limits<int>::max());
+  frame.people = ReadNativePeople(json.At("people"), layout);
+  return frame;
+}
 
 bool IsNativeLabels(const JsonValue& root) {
   return root.Is(JsonValue::Kind::kObject) && root.Find("format");
@@ -283,20 +295,24 @@ Labels ReadNativeLabels(const JsonValue& root, const Layout* layout) {
   Labels labels;
   labels.layout = layout->name;
   for (const JsonValue& frame : root.At("frames").Items())
-    labels.frames.push_back(ReadFrame(frame, *layout));
+    labels.frames.push_back(ReadNativeFrame(frame, *layout));
   return labels;
 }
 
-void WriteLabels(const Labels& labels, const std::filesystem::path& path) {
+std::string LabelsText(const Labels& labels) {
   std::string text = fmt::format("{{\"format\": \"{}\", \"version\": 1, \"layout\": ", kFormat);
   AppendJsonString(labels.layout, &text);
   text += ",\n \"frames\": [";
   for (size_t i = 0; i < labels.frames.size(); ++i) {
     text += i > 0 ? ",\n" : "\n";
-    AppendFrame(labels.frames[i], &text);
+    AppendNativeFrame(labels.frames[i], &text);
   }
   text += "]}\n";
-  WriteFileAtomically(path, text);
+  return text;
+}
+
+void WriteLabels(const Labels& labels, const std::filesystem::path& path) {
+  WriteFileAtomically(path, LabelsText(labels));
 }
 
 }  // namespace poselift

@@ -122,6 +122,20 @@ TEST(NativeLabels, KeepEveryDigitOfAPosition) {
             Eigen::Vector2d(0.1 + 0.2, 1e-7));
 }
 
+TEST(NativeLabels, KeepWhereAnAbsentLandmarkWas) {
+  Labels labels{"body15", {FrameLabels{}}};
+  labels.frames[0].people.push_back({0,
+                                     {{"neck", {3.25, -0.5}, LabelState::kAbsent, {}},
+                                      {"pelvis", {0.0, 0.0}, LabelState::kAbsent, {}}}});
+  const auto path = testing::ScratchDir() / "absent.json";
+  WriteLabels(labels, path);
+  EXPECT_THAT(testing::FileText(path), HasSubstr(R"("pelvis": {"state": "absent"})"));
+  const auto again = ReadLabels(path).frames[0].people[0].landmarks;
+  EXPECT_EQ(again[0].state, LabelState::kAbsent);
+  EXPECT_EQ(again[0].x_px, Eigen::Vector2d(3.25, -0.5));
+  EXPECT_EQ(again[1].x_px, Eigen::Vector2d::Zero());
+}
+
 TEST(NativeLabels, RefuseToWriteWhatIsNotFinite) {
   Labels labels{"body15", {FrameLabels{}}};
   labels.frames[0].people.push_back({0, {{"neck", {NAN, 1}, LabelState::kVisible, {}}}});
