@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the poselift authors
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,9 @@ std::vector<PersonLabels> ReadNativePeople(const JsonValue& json, const Layout& 
 FrameLabels ReadNativeFrame(const JsonValue& json, const Layout& layout);
 void AppendNativePeople(const std::vector<PersonLabels>& people, std::string* out);
 void AppendNativeFrame(const FrameLabels& frame, std::string* out);
+// Empty, or why a person with the hints `before` cannot have this one as well.
+std::string WhatIsWrongWith(const LabelHint& hint, std::span<const LabelHint> before,
+                            const Layout& layout);
 // Bound of a time in seconds.
 inline constexpr double kLargestTime_s = 1e9;
 

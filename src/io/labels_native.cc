@@ -112,7 +112,7 @@ LabelHint::Kind ReadHintKind(const JsonValue& kind) {
   throw kind.Unwanted("one of " + names);
 }
 
-LabelHint ReadHint(const JsonValue& json, const Layout& layout) {
+LabelHint ReadHint(const JsonValue& json) {
   LabelHint hint;
   hint.kind = ReadHintKind(json.At("kind"));
   if (hint.kind != LabelHint::Kind::kHeight) hint.joint = json.At("joint").String();
@@ -127,19 +127,16 @@ LabelHint ReadHint(const JsonValue& json, const Layout& layout) {
     for (Eigen::Index i = 0; i < 3; ++i)
       hint.x_in_cam_m[i] = place.Items()[static_cast<size_t>(i)].Number();
   }
-  if (const std::string error = WhatIsWrongWith(hint, layout); !error.empty())
-    throw json.Error(error);
   return hint;
 }
 
 std::vector<LabelHint> ReadHints(const JsonValue& json, const Layout& layout) {
   std::vector<LabelHint> hints;
-  bool has_height = false;
   for (const JsonValue& item : json.Items()) {
-    hints.push_back(ReadHint(item, layout));
-    if (hints.back().kind != LabelHint::Kind::kHeight) continue;
-    if (has_height) throw item.Error("found a second height of a person, wanted one");
-    has_height = true;
+    const LabelHint hint = ReadHint(item);
+    if (const std::string error = WhatIsWrongWith(hint, hints, layout); !error.empty())
+      throw item.Error(error);
+    hints.push_back(hint);
   }
   return hints;
 }
@@ -225,6 +222,14 @@ void AppendPerson(const PersonLabels& person, std::string* out) {
 }
 
 }  // namespace
+
+std::string WhatIsWrongWith(const LabelHint& hint, std::span<const LabelHint> before,
+                            const Layout& layout) {
+  const auto is_height = [](const LabelHint& h) { return h.kind == LabelHint::Kind::kHeight; };
+  if (is_height(hint) && std::any_of(before.begin(), before.end(), is_height))
+    return "found a second height of a person, wanted one";
+  return WhatIsWrongWith(hint, layout);
+}
 
 void AppendNativePeople(const std::vector<PersonLabels>& people, std::string* out) {
   *out += "[";

@@ -45,9 +45,36 @@ LabelEdit EditOfLandmark(const Labels& labels, PersonRef ref, std::mt19937* rng)
   }
 }
 
+LabelHint RandomHint(const Labels& labels, std::mt19937* rng) {
+  using Kind = LabelHint::Kind;
+  switch (Below(6, rng)) {
+    case 0:
+      return {Kind::kNearer, "left_wrist", "right_wrist", 0.1};
+    case 1:
+      return {Kind::kNearer, "right_wrist", "left_wrist"};
+    case 2:
+      return {Kind::kTowardsCamera, "left_knee"};
+    case 3:
+      return {Kind::kOnFloor, RandomLandmark(labels, rng)};
+    case 4:
+      return {Kind::kHeight, "", "", 1.5 + 0.01 * Below(50, rng)};
+    default:
+      return {Kind::kPin, "right_hand", "", {}, {0.25, -0.5, 0.001 * Below(1000, rng)}};
+  }
+}
+
+LabelEdit EditOfHints(const Labels& labels, PersonRef ref, std::mt19937* rng) {
+  const int count = static_cast<int>(std::ssize(FindPerson(labels, ref)->hints));
+  if (count > 0 && Below(3, rng) == 0)
+    return RemoveHint(labels, ref, static_cast<size_t>(Below(count, rng)));
+  std::vector<LabelHint> hints = {RandomHint(labels, rng)};
+  if (Below(2, rng) == 0) hints.push_back(RandomHint(labels, rng));
+  return GiveHints(labels, ref, hints);
+}
+
 LabelEdit EditOfPerson(const Labels& labels, PersonRef ref, std::mt19937* rng) {
   if (!FindPerson(labels, ref)) return AddPerson(labels, ref);
-  switch (Below(6, rng)) {
+  switch (Below(9, rng)) {
     case 0:
       return RemovePerson(labels, ref);
     case 1:
@@ -58,6 +85,10 @@ LabelEdit EditOfPerson(const Labels& labels, PersonRef ref, std::mt19937* rng) {
       return RotatePerson(labels, ref, 0.1);
     case 4:
       return ScalePerson(labels, ref, 1.1);
+    case 5:
+    case 6:
+    case 7:
+      return EditOfHints(labels, ref, rng);
     default:
       return CopyPerson(labels, ref, static_cast<size_t>(Below(std::ssize(labels.frames), rng)));
   }

@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "src/joint_relation.h"
+#include "src/joints.h"
 #include "src/layout.h"
 
 namespace poselift {
@@ -71,7 +73,7 @@ LabelEdit WithLandmark(const Labels& labels, PersonRef ref, LandmarkLabel landma
   return WithPerson(labels, ref.frame, std::move(person), std::move(name));
 }
 
-// "left_knee" for "right_knee"; itself when the layout has no other side of it.
+// "left_knee" for "right_knee"; itself when neither the layout nor the body has another side of it.
 std::string OtherSide(const Layout& layout, const std::string& name) {
   constexpr std::string_view kLeft = "left_", kRight = "right_";
   std::string other = name;
@@ -79,12 +81,30 @@ std::string OtherSide(const Layout& layout, const std::string& name) {
     other.replace(0, kLeft.size(), kRight);
   else if (name.starts_with(kRight))
     other.replace(0, kRight.size(), kLeft);
-  return layout.Find(other) ? other : name;
+  return layout.Find(other) || FindJoint(other) ? other : name;
 }
 
 void SwapSidesOf(const Layout& layout, PersonLabels* person) {
   for (LandmarkLabel& landmark : person->landmarks)
     landmark.name = OtherSide(layout, landmark.name);
+  for (LabelHint& hint : person->hints) {
+    hint.joint = OtherSide(layout, hint.joint);
+    hint.other = OtherSide(layout, hint.other);
+  }
+}
+
+bool IsOfBone(const LabelHint& hint) {
+  return hint.kind == LabelHint::Kind::kTowardsCamera ||
+         hint.kind == LabelHint::Kind::kAwayFromCamera;
+}
+
+// Whether a new hint takes the other's place.
+bool AreOfTheSame(const LabelHint& a, const LabelHint& b) {
+  if (IsOfBone(a) && IsOfBone(b)) return a.joint == b.joint;
+  if (a.kind != b.kind) return false;
+  const bool are_the_other_way_round = a.joint == b.other && a.other == b.joint;
+  return (a.joint == b.joint && a.other == b.other) ||
+         (a.kind == LabelHint::Kind::kNearer && are_the_other_way_round);
 }
 
 const Layout& LayoutOf(const Labels& labels) {
@@ -195,6 +215,31 @@ int FreePersonId(const Labels& labels, size_t frame) {
   return id;
 }
 
+LabelEdit GiveHints(const Labels& labels, PersonRef ref, const std::vector<LabelHint>& hints) {
+  PersonLabels person = PersonAt(labels, ref);
+  for (const LabelHint& hint : hints) {
+    std::erase_if(person.hints, [&](const LabelHint& old) { return AreOfTheSame(old, hint); });
+    person.hints.push_back(hint);
+  }
+  return WithPerson(labels, ref.frame, std::move(person),
+                    hints.size() == 1 ? "hint: " + Spoken(Describe(hints[0]))
+                                      : fmt::format("{} hints", hints.size()));
+}
+
+LabelEdit RemoveHint(const Labels& labels, PersonRef ref, size_t index) {
+  PersonLabels person = PersonAt(labels, ref);
+  std::string name = "forget: " + Spoken(Describe(person.hints.at(index)));
+  person.hints.erase(person.hints.begin() + static_cast<std::ptrdiff_t>(index));
+  return WithPerson(labels, ref.frame, std::move(person), std::move(name));
+}
+
+LabelEdit RemoveHints(const Labels& labels, PersonRef ref) {
+  PersonLabels person = PersonAt(labels, ref);
+  person.hints.clear();
+  return WithPerson(labels, ref.frame, std::move(person),
+                    fmt::format("forget the hints of person {}", ref.id));
+}
+
 LabelEdit SwapSides(const Labels& labels, PersonRef ref) {
   PersonLabels person = PersonAt(labels, ref);
   SwapSidesOf(LayoutOf(labels), &person);
@@ -211,6 +256,7 @@ LabelEdit MirrorFrame(const Labels& labels, size_t frame, int width_px) {
     SwapSidesOf(LayoutOf(labels), &person);
     for (LandmarkLabel& landmark : person.landmarks)
       landmark.x_px.x() = width_px - 1 - landmark.x_px.x();
+    for (LabelHint& hint : person.hints) hint.x_in_cam_m.x() *= -1.0;
   }
   return edit;
 }

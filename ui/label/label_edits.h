@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <string_view>
+#include <vector>
 
 #include "src/labels.h"
 #include "ui/label/label_history.h"
@@ -51,9 +52,21 @@ LabelEdit RemovePerson(const Labels& labels, PersonRef ref);
 // The smallest id from 0 that nobody has in the frame.
 int FreePersonId(const Labels& labels, size_t frame);
 
-// Left landmarks become right ones and the other way round. "swap left and right of person 1"
+// Hints of the person, as one step; HintsToFlip and HintsToChoose (lift/depth_mirror.h) give them
+// for a limb and for an alternative. A new hint takes the place of one that says something else of
+// the same: the bone's direction, which of two joints is nearer, where a joint is pinned, the
+// height. "hint: left wrist nearer than right wrist", "4 hints"
+LabelEdit GiveHints(const Labels& labels, PersonRef ref, const std::vector<LabelHint>& hints);
+// std::out_of_range when there is no such hint. "forget: left wrist nearer than right wrist"
+LabelEdit RemoveHint(const Labels& labels, PersonRef ref, size_t index);
+// "forget the hints of person 1"
+LabelEdit RemoveHints(const Labels& labels, PersonRef ref);
+
+// Left landmarks become right ones and the other way round, in hints too. "swap left and right of
+// person 1"
 LabelEdit SwapSides(const Labels& labels, PersonRef ref);
-// The labels of the mirrored picture: x_px -> width_px - 1 - x_px, sides swapped, of all people.
+// The labels of the mirrored picture: x_px -> width_px - 1 - x_px, sides swapped, pins mirrored, of
+// all people.
 // std::invalid_argument for a width below 1. "mirror labels"
 LabelEdit MirrorFrame(const Labels& labels, size_t frame, int width_px);
 
@@ -66,8 +79,8 @@ LabelEdit ScalePerson(const Labels& labels, PersonRef ref, double factor);
 // The middle of the box around what is not absent; around all when everything is.
 Eigen::Vector2d PersonCenter(const PersonLabels& person);
 
-// The person of the other frame, with states and radii, into this frame, in the place of the one
-// with the same id. "copy person 1 from frame 4" (counted from 1, as people do)
+// The person of the other frame, with states, radii and hints, into this frame, in the place of the
+// one with the same id. "copy person 1 from frame 4" (counted from 1, as people do)
 LabelEdit CopyPerson(const Labels& labels, PersonRef from, size_t to_frame);
 
 }  // namespace poselift

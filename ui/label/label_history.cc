@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "src/input_error.h"
@@ -41,6 +42,11 @@ void CheckPeople(const std::vector<PersonLabels>& people, const Layout& layout) 
       if (!names.insert(landmark.name).second)
         throw InputError(fmt::format("found {} of a person twice, wanted it once", landmark.name));
     }
+    for (size_t i = 0; i < person.hints.size(); ++i)
+      if (const std::string error =
+              WhatIsWrongWith(person.hints[i], std::span(person.hints).first(i), layout);
+          !error.empty())
+        throw InputError(error);
   }
 }
 

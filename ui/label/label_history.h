@@ -34,7 +34,8 @@ struct LabelStep {
 };
 
 // Throws InputError for what labels cannot hold (docs/FORMATS.md): frames that are not there, two
-// people of one id, landmarks twice or of another layout, coordinates beyond 1e6 px.
+// people of one id, landmarks twice or of another layout, coordinates beyond 1e6 px, hints of
+// what the body does not have.
 void CheckEdit(const Labels& labels, const LabelEdit& edit);
 
 // Not checked: CheckEdit.

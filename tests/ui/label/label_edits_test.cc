@@ -5,18 +5,21 @@
 // symmetries (mirroring and swapping twice, turning back), names for menus.
 #include "ui/label/label_edits.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <numbers>
 #include <stdexcept>
 
+#include "src/joint_relation.h"
 #include "tests/support/random_labels.h"
 #include "tests/support/support.h"
 
 namespace poselift {
 namespace {
 
+using ::testing::ElementsAre;
 using testing::ExactText;
+using ::testing::IsEmpty;
 using testing::MatrixNear;
 using testing::SomeLabels;
 
@@ -132,6 +135,63 @@ TEST(LabelEdits, ACopiedPersonKeepsItsFlagsAndTakesItsOwnPlace) {
   EXPECT_EQ(FindLandmark(labels, {1, 3}, "right_knee")->state, LabelState::kOccluded);
   EXPECT_EQ(FindLandmark(labels, {1, 3}, "right_knee")->radius_px, 2.0);
   EXPECT_THROW(CopyPerson(labels, {0, 9}, 1), std::invalid_argument);
+}
+
+using Kind = LabelHint::Kind;
+
+std::vector<std::string> Hints(const Labels& labels) {
+  std::vector<std::string> said;
+  for (const LabelHint& hint : FindPerson(labels, kPerson)->hints) said.push_back(Describe(hint));
+  return said;
+}
+
+TEST(LabelEdits, HintsTakeThePlaceOfWhatIsSaidOfTheSame) {
+  const LabelHint nearer{Kind::kNearer, "left_wrist", "right_wrist"};
+  const LabelEdit one = GiveHints(TwoKnees(), kPerson, {nearer});
+  EXPECT_EQ(one.name, "hint: left wrist nearer than right wrist");
+  Labels labels = After(TwoKnees(), one);
+  const LabelEdit four = GiveHints(labels, kPerson,
+                                   {{Kind::kTowardsCamera, "left_knee"},
+                                    {Kind::kTowardsCamera, "right_knee"},
+                                    {Kind::kHeight, "", "", 1.8},
+                                    {Kind::kPin, "left_hand", "", {}, {0.1, 0.2, 0.3}}});
+  EXPECT_EQ(four.name, "4 hints");
+  labels = After(labels, four);
+  EXPECT_THAT(
+      Hints(labels),
+      ElementsAre("left_wrist nearer than right_wrist", "the bone to left_knee towards the camera",
+                  "the bone to right_knee towards the camera", "1.8 m tall", "left_hand pinned"));
+  labels = After(labels, GiveHints(labels, kPerson,
+                                   {{Kind::kNearer, "right_wrist", "left_wrist"},
+                                    {Kind::kAwayFromCamera, "left_knee"},
+                                    {Kind::kHeight, "", "", 1.6},
+                                    {Kind::kOnFloor, "left_hand"}}));
+  EXPECT_THAT(Hints(labels), ElementsAre("the bone to right_knee towards the camera",
+                                         "left_hand pinned", "right_wrist nearer than left_wrist",
+                                         "the bone to left_knee away from the camera", "1.6 m tall",
+                                         "left_hand on the floor"));
+  const LabelEdit forgotten = RemoveHint(labels, kPerson, 1);
+  EXPECT_EQ(forgotten.name, "forget: left hand pinned");
+  EXPECT_EQ(Hints(After(labels, forgotten)).size(), 5u);
+  EXPECT_THROW(RemoveHint(labels, kPerson, 6), std::out_of_range);
+  EXPECT_THAT(Hints(After(labels, RemoveHints(labels, kPerson))), IsEmpty());
+  EXPECT_THROW(GiveHints(labels, {1, 0}, {nearer}), std::invalid_argument);
+}
+
+TEST(LabelEdits, HintsFollowTheirSides) {
+  // A hand is a joint of the body, not of the layout.
+  const Labels labels =
+      After(TwoKnees(), GiveHints(TwoKnees(), kPerson,
+                                  {{Kind::kNearer, "left_wrist", "right_knee"},
+                                   {Kind::kPin, "left_hand", "", {}, {0.1, 0.2, 0.3}}}));
+  const Labels swapped = After(labels, SwapSides(labels, kPerson));
+  EXPECT_THAT(Hints(swapped),
+              ElementsAre("right_wrist nearer than left_knee", "right_hand pinned"));
+  EXPECT_EQ(FindPerson(swapped, kPerson)->hints[1].x_in_cam_m, Eigen::Vector3d(0.1, 0.2, 0.3));
+  const Labels mirrored = After(labels, MirrorFrame(labels, 0, 640));
+  EXPECT_THAT(Hints(mirrored), Hints(swapped));
+  EXPECT_EQ(FindPerson(mirrored, kPerson)->hints[1].x_in_cam_m, Eigen::Vector3d(-0.1, 0.2, 0.3));
+  EXPECT_EQ(ExactText(After(mirrored, MirrorFrame(mirrored, 0, 640))), ExactText(labels));
 }
 
 }  // namespace

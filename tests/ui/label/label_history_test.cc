@@ -122,6 +122,11 @@ TEST(LabelHistory, RefusesWhatLabelsCannotHold) {
   const auto of_landmarks = [](std::vector<LandmarkLabel> landmarks) {
     return LabelEdit{"bad", {{0, {{0, std::move(landmarks)}}}}, {}, {}, {}};
   };
+  using Kind = LabelHint::Kind;
+  const auto of_hints = [](std::vector<LabelHint> hints) {
+    return LabelEdit{"bad", {{0, {{0, {}, std::move(hints)}}}}, {}, {}, {}};
+  };
+  const LabelHint tall{Kind::kHeight, "", "", 1.8};
   const LandmarkLabel knee{"left_knee", {1.0, 2.0}, LabelState::kVisible, {}};
   LandmarkLabel far = knee, nowhere = knee, pointed = knee, unknown = knee;
   far.x_px.x() = 2e6;
@@ -137,6 +142,9 @@ TEST(LabelHistory, RefusesWhatLabelsCannotHold) {
                                         of_landmarks({pointed}),
                                         of_landmarks({unknown}),
                                         of_landmarks({knee, knee}),
+                                        of_hints({{Kind::kOnFloor, "tail"}}),
+                                        of_hints({{Kind::kHeight, "", "", kNaN}}),
+                                        of_hints({tall, tall}),
                                         {"twins", {{0, {{1, {}}, {1, {}}}}}, {}, {}, {}},
                                         {"no such frame", {{6, {}}}, {}, {}, {}},
                                         {"no such frame", {}, {{6, "a.jpg"}}, {}, {}},
