@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lift/normalize.h"
+#include "src/forward_kinematics.h"
 #include "src/joints.h"
 
 namespace poselift {
@@ -111,6 +112,14 @@ BodyProportions AtEqualStature(const BodyProportions& body,
       StatureShares(standard_lengths_m).array() * (body.log_ratios.array() - log_stature).exp();
   const GroupMatrix without = GroupMatrix::Identity() - GroupVector::Ones() * by_ratios.transpose();
   return {body.log_ratios.array() - log_stature, without * body.covariance * without.transpose()};
+}
+
+double Stature_m(const Skeleton& skeleton) {
+  constexpr double kAnkleHeight_m = 0.08;
+  const Pose3 rest_m = JointPositions(skeleton, SkeletonPose::Rest(skeleton));
+  const GroupVector sums_m = GroupSums(BoneLengths(skeleton));
+  return kAnkleHeight_m + 0.5 * (sums_m[kThigh] + sums_m[kShank]) + rest_m(1, joint::kPelvis) -
+         rest_m(1, joint::kLeftHip) + sums_m[kTrunk] + sums_m[kHead];
 }
 
 PersonBones BonesOf(const BodyProportions& body, const Eigen::VectorXd& standard_lengths_m) {

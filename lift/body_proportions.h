@@ -59,6 +59,10 @@ double LogStature(const GroupVector& log_ratios, const Eigen::VectorXd& standard
 BodyProportions AtEqualStature(const BodyProportions& body,
                                const Eigen::VectorXd& standard_lengths_m);
 
+// From the soles to the crown of the skeleton when it stands upright: ankle, legs, the
+// hips below the pelvis, trunk, neck and head, each at full length.
+double Stature_m(const Skeleton& skeleton);
+
 // Lengths of the bones and their standard deviations.
 PersonBones BonesOf(const BodyProportions& body, const Eigen::VectorXd& standard_lengths_m);
 

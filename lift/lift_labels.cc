@@ -111,18 +111,28 @@ std::vector<std::pair<std::string, double>> Named(const Eigen::VectorXd& angles_
   return named;
 }
 
-PersonPose ToPersonPose(const LiftResult& result, const Observation& observation, int id,
-                        const Skeleton& skeleton) {
+std::string UnmetHintsMessage(const LiftedPose& lifted, const std::vector<LabelHint>& hints) {
+  std::string message;
+  for (const int hint : lifted.unmet_hints)
+    message +=
+        (message.empty() ? "hints not met: " : "; ") + Describe(hints[static_cast<size_t>(hint)]);
+  return message;
+}
+
+// As the file has it, at the person's own size where that is known.
+PersonPose ToPersonPose(const LiftResult& result, const Observation& observation,
+                        const PersonLabels& labels, const Skeleton& skeleton) {
   PersonPose person;
-  person.id = id;
+  person.id = labels.id;
   person.status = StatusName(result.status);
   person.message = result.message;
   if (!result.IsUsable()) return person;
   const LiftedPose& best = result.poses.front();
-  person.joints_in_cam_m = best.joints_in_cam_m;
-  person.scale_px_per_m = best.camera.scale_px_per_m;
+  if (!best.unmet_hints.empty()) person.message = UnmetHintsMessage(best, labels.hints);
+  person.joints_in_cam_m = best.size * best.joints_in_cam_m;
+  person.scale_px_per_m = best.camera.scale_px_per_m / best.size;
   person.translation_px = best.camera.translation_px;
-  person.pelvis_in_cam_m = best.pelvis_in_cam_m;
+  person.pelvis_in_cam_m = best.size * best.pelvis_in_cam_m;
   person.rotation_cam_from_body = Eigen::Quaterniond(best.camera.cam_from_body);
   person.angles_deg = Named(JointAngleReader(skeleton).ReadDeg(LevelFromCam(best.pose)));
   person.angles_sigma_deg = Named(best.angles_sigma_deg);
@@ -134,9 +144,38 @@ PersonPose ToPersonPose(const LiftResult& result, const Observation& observation
     person.atoms.emplace_back(best.code.atoms[i],
                               best.code.coefficients[static_cast<Eigen::Index>(i)]);
   for (size_t i = 1; i < result.poses.size(); ++i)
-    person.alternatives.push_back({result.poses[i].joints_in_cam_m, result.poses[i].cost,
-                                   result.poses[i].reprojection_rms_px});
+    person.alternatives.push_back({best.size * result.poses[i].joints_in_cam_m,
+                                   result.poses[i].cost, result.poses[i].reprojection_rms_px});
   return person;
+}
+
+// Bones at the size of a person whose proportions were not looked for.
+PersonBones BonesAtSize(int id, double size, const Skeleton& skeleton) {
+  const Eigen::VectorXd lengths_m = BoneLengths(skeleton);
+  PersonBones bones = BonesOf(AtEqualStature(ProportionPrior(), lengths_m), size * lengths_m);
+  bones.id = id;
+  return bones;
+}
+
+// Of everyone in frames lifted one by one of whom a hint said how tall they are.
+std::vector<PersonBones> BonesOfKnownSize(const LiftedLabels& lifted, const Skeleton& skeleton) {
+  std::vector<PersonBones> bodies;
+  for (size_t f = 0; f < lifted.results.size(); ++f)
+    for (size_t p = 0; p < lifted.results[f].size(); ++p) {
+      const LiftResult& result = lifted.results[f][p];
+      const int id = lifted.poses.frames[f].people[p].id;
+      const bool is_new = std::none_of(bodies.begin(), bodies.end(),
+                                       [&](const PersonBones& body) { return body.id == id; });
+      if (is_new && result.IsUsable() && result.poses.front().size != 1.0)
+        bodies.push_back(BonesAtSize(id, result.poses.front().size, skeleton));
+    }
+  return bodies;
+}
+
+double SizeOf(const LiftedSequence& sequence) {
+  for (const LiftResult& frame : sequence.frames)
+    if (frame.IsUsable()) return frame.poses.front().size;
+  return 1.0;
 }
 
 }  // namespace
@@ -158,12 +197,13 @@ LiftedLabels LiftLabels(const PhotoLifter& lifter, const Labels& labels,
       const Observation observation = ObserveThrough(camera, person, layout);
       LiftResult result = lifter.LiftPhoto(observation);
       poses.people.push_back(
-          ToPersonPose(result, observation, person.id, lifter.dictionary().skeleton));
+          ToPersonPose(result, observation, person, lifter.dictionary().skeleton));
       lifted.results[f].push_back(std::move(result));
     }
     const size_t now = ++done;
     if (progress) progress(static_cast<double>(now) / static_cast<double>(labels.frames.size()));
   }
+  lifted.poses.bodies = BonesOfKnownSize(lifted, lifter.dictionary().skeleton);
   return lifted;
 }
 
@@ -201,17 +241,20 @@ LiftedLabels LiftLabelsOverTime(const SequenceLifter& lifter, const Skeleton& sk
       if (progress) progress((static_cast<double>(i) + part) / static_cast<double>(ids.size()));
     };
     LiftedSequence sequence = lifter.LiftSequence(track.observations, grid.frame_time_s, so_far);
+    const double size = SizeOf(sequence);
     if (!sequence.body.covariance.isZero()) {
-      PersonBones bones = BonesOf(sequence.body, BoneLengths(skeleton));
+      PersonBones bones = BonesOf(sequence.body, size * BoneLengths(skeleton));
       bones.id = ids[i];
       lifted.poses.bodies.push_back(std::move(bones));
+    } else if (size != 1.0) {
+      lifted.poses.bodies.push_back(BonesAtSize(ids[i], size, skeleton));
     }
     const JointAngleReader angles(sequence.skeleton);
     Eigen::VectorXd angles_deg;  // of the frame before
     for (const auto& [frame, person, place] : track.labelled) {
       PersonPose& pose = lifted.poses.frames[frame].people[person];
-      pose = ToPersonPose(sequence.frames[place], track.observations[place], ids[i],
-                          sequence.skeleton);
+      pose = ToPersonPose(sequence.frames[place], track.observations[place],
+                          labels.frames[frame].people[person], sequence.skeleton);
       if (sequence.filled[place]) pose.status = kFilledStatus;
       if (sequence.frames[place].IsUsable()) {
         const SkeletonPose now = LevelFromCam(sequence.frames[place].poses.front().pose);
@@ -225,14 +268,17 @@ LiftedLabels LiftLabelsOverTime(const SequenceLifter& lifter, const Skeleton& sk
 }
 
 Motion ToMotion(const LiftedLabels& lifted, const Skeleton& skeleton, double frame_time_s) {
-  Motion motion{skeleton, frame_time_s, {}};
+  const std::vector<PersonBones>& bodies = lifted.poses.bodies;
+  Motion motion{bodies.empty() ? skeleton : WithBoneLengths(skeleton, bodies.front().lengths_m),
+                frame_time_s,
+                {}};
   for (const auto& people : lifted.results) {
     if (people.empty() || !people.front().IsUsable()) {
       if (!motion.frames.empty()) motion.frames.push_back(motion.frames.back());
       continue;
     }
     SkeletonPose pose = LevelFromCam(people.front().poses.front().pose);
-    pose.root_in_world_m.y() -= JointPositions(skeleton, pose).row(1).minCoeff();
+    pose.root_in_world_m.y() -= JointPositions(motion.skeleton, pose).row(1).minCoeff();
     motion.frames.push_back(std::move(pose));
   }
   return motion;

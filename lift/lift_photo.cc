@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lift/body_proportions.h"
 #include "lift/normalize.h"
 #include "lift/perspective.h"
 
@@ -76,9 +77,13 @@ std::string LiftPhotoOptions::Validate() const {
 std::string LiftResult::BriefReport() const {
   if (!IsUsable()) return message;
   const size_t num_alternatives = poses.size() - 1;
+  const size_t num_unmet = poses.front().unmet_hints.size();
   return fmt::format("reprojection {:.1f} px RMS, {} atoms, {} alternative{}",
                      poses.front().reprojection_rms_px, poses.front().code.atoms.size(),
-                     num_alternatives, num_alternatives == 1 ? "" : "s");
+                     num_alternatives, num_alternatives == 1 ? "" : "s") +
+         (num_unmet == 0
+              ? ""
+              : fmt::format(", {} hint{} not met", num_unmet, num_unmet == 1 ? "" : "s"));
 }
 
 PhotoLifter::PhotoLifter(const Dictionary& dictionary, const LiftPhotoOptions& options)
@@ -88,7 +93,19 @@ PhotoLifter::PhotoLifter(const Dictionary& dictionary, const LiftPhotoOptions& o
       refinement_(dictionary.skeleton, options.refinement, dictionary.prior),
       bone_lengths_m_(BoneLengths(dictionary.skeleton)) {}
 
+double SizeOf(const Observation& observation, const Skeleton& skeleton) {
+  return observation.stature_m ? *observation.stature_m / Stature_m(skeleton) : 1.0;
+}
+
 LiftResult PhotoLifter::LiftPhoto(const Observation& observation) const {
+  if (!observation.stature_m) return LiftAtSkeletonSize(observation);
+  const double size = SizeOf(observation, dictionary_.skeleton);
+  LiftResult result = LiftAtSkeletonSize(AtSkeletonSize(observation, size));
+  for (LiftedPose& lifted : result.poses) lifted.size = size;
+  return result;
+}
+
+LiftResult PhotoLifter::LiftAtSkeletonSize(const Observation& observation) const {
   LiftResult result;
   if (const std::string reason = CanLift(observation); !reason.empty()) {
     result.status = LiftStatus::kCannotLift;
@@ -105,6 +122,7 @@ LiftResult PhotoLifter::LiftPhoto(const Observation& observation) const {
     if (!lifted) continue;
     MeasureErrors(observation, &*lifted);
     lifted->cost = Cost(*lifted, observation);
+    lifted->unmet_hints = UnmetHints(observation.relations, lifted->joints_in_cam_m);
     result.poses.push_back(std::move(*lifted));
   }
   std::stable_sort(result.poses.begin(), result.poses.end(),
@@ -133,14 +151,20 @@ std::optional<LiftedPose> PhotoLifter::Finish(const LiftSolution& solution,
 std::optional<LiftedPose> PhotoLifter::FinishInPerspective(const LiftSolution& solution,
                                                            const Observation& observation) const {
   std::optional<LiftedPose> lifted = Finish(solution, observation);
+  LiftSolution last = solution;
   ViewStart start{solution.tau_rad, solution.scale_px_per_m * dictionary_.typical_norm_m};
   for (int i = 0; i < options_.perspective_rounds && lifted; ++i) {
     const Observation weak =
         AsWeakPerspective(observation, lifted->joints_in_cam_m, lifted->camera);
-    const std::vector<LiftSolution> closer = lifter_.SolveFrom(weak, {start});
+    std::vector<LiftSolution> closer;
+    if (observation.relations.empty())
+      closer = lifter_.SolveFrom(weak, {start});
+    else if (CanLift(weak).empty())  // a limb that a hint has flipped stays so
+      closer = {lifter_.GoOnFrom(weak, last)};
     if (closer.empty()) break;
-    start.tau_rad = closer.front().tau_rad;
-    lifted = Finish(closer.front(), weak);
+    last = closer.front();
+    start.tau_rad = last.tau_rad;
+    lifted = Finish(last, weak);
   }
   if (lifted) lifted->pelvis_in_cam_m = PelvisInCam_m(*observation.pinhole, lifted->camera);
   return lifted;
@@ -152,6 +176,10 @@ double PhotoLifter::Cost(const LiftedPose& lifted, const Observation& observatio
   for (size_t i = 0; i < observation.points.size(); ++i) {
     const double sigmas =
         lifted.point_errors[static_cast<Eigen::Index>(i)] / observation.points[i].sigma;
+    cost += sigmas * sigmas;
+  }
+  for (const JointRelation& relation : observation.relations) {
+    const double sigmas = relation.Residual(lifted.joints_in_cam_m);
     cost += sigmas * sigmas;
   }
   if (dictionary_.prior.Empty()) return cost;

@@ -42,8 +42,11 @@ struct LiftedPose {
   // frame by itself.
   Eigen::VectorXd angles_sigma_deg;
   SparseCode code;  // x: metres
+  // How much larger the person is than the skeleton, where a hint says how tall they are.
+  double size = 1.0;
+  std::vector<int> unmet_hints;  // of PersonLabels::hints
   // What is left to explain, in squared standard deviations: the points', the
-  // pose's and the rotation's.
+  // pose's and the rotation's, and the hints'.
   double cost = -1.0;
   Eigen::VectorXd point_errors;       // of each observed point, px or m
   double reprojection_rms_px = -1.0;  // over the 2D points; -1 without any
@@ -66,6 +69,9 @@ struct LiftResult {
   std::string BriefReport() const;
 };
 
+// How much larger the person is than the skeleton; 1 where nothing is said of it.
+double SizeOf(const Observation& observation, const Skeleton& skeleton);
+
 // From the observed points of one person to poses with joint angles; in true
 // perspective where the camera is known, else in weak perspective.
 class PhotoLifter {
@@ -75,11 +81,14 @@ class PhotoLifter {
   explicit PhotoLifter(const Dictionary& dictionary, const LiftPhotoOptions& options = {});
 
   // Several threads may call at once.
+  // Hints that contradict each other, or the picture, give a pose all the same, which
+  // says which it does not meet.
   LiftResult LiftPhoto(const Observation& observation) const;
 
   const Dictionary& dictionary() const { return dictionary_; }
 
  private:
+  LiftResult LiftAtSkeletonSize(const Observation& observation) const;
   // Nothing when no pose of the skeleton fits.
   std::optional<LiftedPose> Finish(const LiftSolution& solution,
                                    const Observation& observation) const;

@@ -95,6 +95,7 @@ void PutOn(const Skeleton& skeleton, const Observation& seen, LiftedPose* lifted
   lifted->joints_in_cam_m = JointPositions(skeleton, lifted->pose);
   if (seen.pinhole) lifted->pelvis_in_cam_m = PelvisInCam_m(*seen.pinhole, lifted->camera);
   MeasureErrors(seen, lifted);
+  lifted->unmet_hints = UnmetHints(seen.relations, lifted->joints_in_cam_m);
 }
 
 // A curve of points at any time: linear between frames, held at the ends.
@@ -157,6 +158,22 @@ SequenceLifter::SequenceLifter(const PhotoLifter& lifter, const MotionCodebook& 
 
 LiftedSequence SequenceLifter::LiftSequence(const std::vector<Observation>& frames,
                                             double frame_time_s, const ProgressFn& progress) const {
+  const auto tall = std::find_if(frames.begin(), frames.end(), [](const Observation& frame) {
+    return frame.stature_m.has_value();
+  });
+  if (tall == frames.end()) return LiftAtSkeletonSize(frames, frame_time_s, progress);
+  const double size = SizeOf(*tall, lifter_.dictionary().skeleton);
+  std::vector<Observation> at_size;
+  for (const Observation& frame : frames) at_size.push_back(AtSkeletonSize(frame, size));
+  LiftedSequence lifted = LiftAtSkeletonSize(at_size, frame_time_s, progress);
+  for (LiftResult& frame : lifted.frames)
+    for (LiftedPose& pose : frame.poses) pose.size = size;
+  return lifted;
+}
+
+LiftedSequence SequenceLifter::LiftAtSkeletonSize(const std::vector<Observation>& frames,
+                                                  double frame_time_s,
+                                                  const ProgressFn& progress) const {
   if (!(frame_time_s > 0.0 && frame_time_s <= kLongestFrameTime_s))
     throw InputError(fmt::format("found {} s between frames, wanted more than 0 and at most {}",
                                  frame_time_s, kLongestFrameTime_s));

@@ -58,7 +58,9 @@ class SequenceLifter {
   SequenceLifter(const PhotoLifter& lifter, const MotionCodebook& codebook,
                  const LiftSequenceOptions& options = {});
 
-  // frames: at even times; one without points is a frame where nothing was seen.
+  // frames: at even times; one without points is a frame where nothing was seen. Hints of
+  // a frame count where it is lifted alone and in the motion; they do not reach others by
+  // themselves. The first frame that says how tall the person is says so for all.
   // The longest frame time at which a motion can be told is kLongestFrameTime_s;
   // beyond it throws InputError.
   LiftedSequence LiftSequence(const std::vector<Observation>& frames, double frame_time_s,
@@ -68,6 +70,8 @@ class SequenceLifter {
 
  private:
   struct Run;
+  LiftedSequence LiftAtSkeletonSize(const std::vector<Observation>& frames, double frame_time_s,
+                                    const ProgressFn& progress) const;
   bool LiftEach(Run* run, const ProgressFn& progress) const;
   void FindLocalPoses(Run* run) const;
   void GatherEvidence(Run* run) const;

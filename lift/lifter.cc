@@ -9,11 +9,14 @@
 #include <stdexcept>
 
 #include "lift/alternation.h"
+#include "lift/depth_mirror.h"
 
 namespace poselift {
 namespace {
 
 constexpr int kLeastPoints = 4;
+// How far off a pose that was mirrored may be: it is where to start.
+constexpr double kMirrorSigma_m = 0.1;
 // px or m: fourth powers of what lies within are far from overflow.
 constexpr double kFarthest = 1e9;
 
@@ -23,10 +26,12 @@ void SortByObjective(std::vector<LiftSolution>* solutions) {
       [](const LiftSolution& a, const LiftSolution& b) { return a.objective < b.objective; });
 }
 
+Pose3 JointsInCam_m(const LiftSolution& solution) {
+  return CamFromBody(solution.tau_rad) * Unstacked(solution.pose_in_body_m);
+}
+
 double RmsDistance_m(const LiftSolution& a, const LiftSolution& b) {
-  const Pose3 a_in_cam = CamFromBody(a.tau_rad) * Unstacked(a.pose_in_body_m);
-  const Pose3 b_in_cam = CamFromBody(b.tau_rad) * Unstacked(b.pose_in_body_m);
-  return std::sqrt((a_in_cam - b_in_cam).squaredNorm() / kNumJoints);
+  return std::sqrt((JointsInCam_m(a) - JointsInCam_m(b)).squaredNorm() / kNumJoints);
 }
 
 // Keeps the better of any two that are the same pose.
@@ -87,9 +92,14 @@ std::string CanLift(const Observation& observation) {
       return fmt::format("'{}' has a sigma of {}, wanted {} to {}", point.name, point.sigma,
                          1.0 / kFarthest, kFarthest);
   }
+  for (const JointRelation& relation : observation.relations)
+    if (!(std::abs(relation.bound_m) <= kFarthest && relation.sigma_m >= 1.0 / kFarthest &&
+          relation.sigma_m <= kFarthest))
+      return fmt::format("a hint says {} m with a sigma of {}, wanted numbers from {} to {}",
+                         relation.bound_m, relation.sigma_m, 1.0 / kFarthest, kFarthest);
   const ProjectionOperator op(observation);
   // The target is in units of sigma.
-  if (op.target().squaredNorm() < static_cast<double>(op.NumRows()))
+  if (op.target().head(op.NumPointRows()).squaredNorm() < static_cast<double>(op.NumPointRows()))
     return "all points lie in one place, wanted points spread over the body";
   return "";
 }
@@ -117,7 +127,42 @@ std::vector<LiftSolution> Lifter::Solve(const Observation& observation) const {
   for (int i = 0; i < options_.num_finishing && i < static_cast<int>(solutions.size()); ++i)
     alternation.Run(options_.max_alternations - trial, &solutions[i]);
   SortByObjective(&solutions);
+  if (!observation.relations.empty()) AddMirrored(observation, &alternation, &solutions);
   return Distinct(std::move(solutions), options_.distinct_m);
+}
+
+// A flip in depth is another minimum: the alternation does not get there by itself.
+void Lifter::AddMirrored(const Observation& observation, Alternation* alternation,
+                         std::vector<LiftSolution>* solutions) const {
+  std::vector<LiftSolution> mirrored;
+  for (int i = 0; i < options_.num_finishing && i < static_cast<int>(solutions->size()); ++i) {
+    const LiftSolution& solution = (*solutions)[i];
+    for (const DepthMirror& mirror :
+         MirrorsInDepth(observation.relations, JointsInCam_m(solution))) {
+      // A code for the mirrored pose, of the same picture.
+      Observation in_depth = observation;
+      for (int j = 0; j < kNumJoints; ++j)
+        if (j != joint::kPelvis)
+          in_depth.relations.push_back({.parts = {{j, 1.0}, {joint::kPelvis, -1.0}},
+                                        .bound_m = mirror.depths_m[j],
+                                        .sigma_m = kMirrorSigma_m});
+      LiftSolution start;
+      start.tau_rad = mirror.whole_body ? MirroredInDepth(solution.tau_rad) : solution.tau_rad;
+      start.scale_px_per_m = solution.scale_px_per_m;
+      LiftSolution coded = start;
+      Alternation(dictionary_, options_, in_depth, prior_rows_, prior_target_).Run(1, &coded);
+      start.tau_rad = coded.tau_rad;
+      start.scale_px_per_m = coded.scale_px_per_m;
+      alternation->StartFrom(coded.code, &start);
+      alternation->Run(options_.trial_alternations, &start);
+      mirrored.push_back(std::move(start));
+    }
+  }
+  SortByObjective(&mirrored);
+  for (int i = 0; i < options_.num_finishing && i < static_cast<int>(mirrored.size()); ++i)
+    alternation->Run(options_.max_alternations, &mirrored[i]);
+  solutions->insert(solutions->end(), mirrored.begin(), mirrored.end());
+  SortByObjective(solutions);
 }
 
 std::vector<LiftSolution> Lifter::SolveFrom(const Observation& observation,
@@ -128,6 +173,13 @@ std::vector<LiftSolution> Lifter::SolveFrom(const Observation& observation,
   for (LiftSolution& solution : solutions) alternation.Run(options_.max_alternations, &solution);
   SortByObjective(&solutions);
   return solutions;
+}
+
+LiftSolution Lifter::GoOnFrom(const Observation& observation, LiftSolution start) const {
+  Alternation alternation(dictionary_, options_, observation, prior_rows_, prior_target_);
+  alternation.StartFrom(std::move(start.code), &start);
+  alternation.Run(options_.max_alternations, &start);
+  return start;
 }
 
 }  // namespace poselift

@@ -52,6 +52,8 @@ struct LiftSolution {
   bool converged = false;
 };
 
+class Alternation;
+
 class Lifter {
  public:
   // The dictionary must outlive the lifter. Throws std::invalid_argument when
@@ -59,7 +61,8 @@ class Lifter {
   Lifter(const Dictionary& dictionary, LifterOptions options);
 
   // The distinct local minima that were found, the best first; empty when the
-  // observation cannot be lifted (see CanLift).
+  // observation cannot be lifted (see CanLift). With hints, those that break some are
+  // tried again with limbs, or all, mirrored in depth.
   std::vector<LiftSolution> Solve(const Observation& observation) const;
 
   // The alternation from given starts, each to convergence; for tests and for
@@ -67,7 +70,14 @@ class Lifter {
   std::vector<LiftSolution> SolveFrom(const Observation& observation,
                                       const std::vector<ViewStart>& starts) const;
 
+  // The alternation to convergence from a solution of another observation, which can be
+  // lifted: its code too is where it starts.
+  LiftSolution GoOnFrom(const Observation& observation, LiftSolution start) const;
+
  private:
+  void AddMirrored(const Observation& observation, Alternation* alternation,
+                   std::vector<LiftSolution>* solutions) const;
+
   const Dictionary& dictionary_;
   LifterOptions options_;
   Eigen::MatrixXd prior_rows_;    // prior_weight whitening A: 69 x K, or 0 x K

@@ -30,7 +30,8 @@ Eigen::Matrix2Xd ProjectInPerspective(const Pinhole& pinhole, const WeakCamera& 
 
 Observation AsWeakPerspective(const Observation& seen, const Pose3& joints_in_cam_m,
                               const WeakCamera& camera) {
-  Observation weak{seen.points, seen.bone_poses, std::nullopt};
+  Observation weak = seen;
+  weak.pinhole.reset();
   for (ObservedPoint& point : weak.points) {
     if (point.kind != ObservedPoint::Kind::k2D) continue;
     const double z_m = SumOfJoints(point.parts, joints_in_cam_m).z();

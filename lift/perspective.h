@@ -28,7 +28,7 @@ Eigen::Matrix2Xd ProjectInPerspective(const Pinhole& pinhole, const WeakCamera& 
                                       const Eigen::Matrix3Xd& x_in_cam_m);
 
 // The 2D points, their sigmas too, as weak perspective would show them; without
-// a pinhole. 3D points stay.
+// a pinhole. All else stays.
 Observation AsWeakPerspective(const Observation& seen, const Pose3& joints_in_cam_m,
                               const WeakCamera& camera);
 

@@ -73,7 +73,7 @@ RotationEstimate EstimateRotation(const ProjectionOperator& op,
                                   double scale_px_per_m, const Eigen::Vector3d& tau_start_rad,
                                   const RotationOptions& options) {
   const auto residual_at = [&](const Eigen::Vector3d& tau) -> Eigen::VectorXd {
-    return op.Rows(CamFromBody(tau), scale_px_per_m, centred_points) - op.target();
+    return op.Residual(CamFromBody(tau), scale_px_per_m, centred_points);
   };
   RotationEstimate estimate{tau_start_rad};
   Eigen::VectorXd residual = residual_at(tau_start_rad);
@@ -86,6 +86,7 @@ RotationEstimate EstimateRotation(const ProjectionOperator& op,
     const auto derivatives = CamFromBodyDerivatives(estimate.tau_rad);
     for (int i = 0; i < 3; ++i)
       jacobian.col(i) = op.Rows(derivatives[i], scale_px_per_m, centred_points);
+    if (op.HasLowerBounds()) jacobian.array().colwise() *= op.ActiveRows(residual);
     const Eigen::Matrix3d hessian = jacobian.transpose() * jacobian + prior_hessian;
     const Eigen::Vector3d gradient =
         jacobian.transpose() * residual + prior_hessian * FromPrior(estimate.tau_rad, options);

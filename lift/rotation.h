@@ -42,7 +42,7 @@ struct RotationEstimate {
 double RotationPriorCost(const Eigen::Vector3d& tau_rad, const RotationOptions& options);
 
 // (P1b): min over tau of |P{tau o y} - y_0|^2 + |W (tau - tau_0)|^2, Eq. (12),
-// by Levenberg-Marquardt from tau_start; never worse than the start.
+// with the relations in both, by Levenberg-Marquardt from tau_start; never worse than the start.
 // centred_points: of the pose y, from op.CentredPoints().
 RotationEstimate EstimateRotation(const ProjectionOperator& op,
                                   const Eigen::Ref<const Eigen::Matrix3Xd>& centred_points,

@@ -95,11 +95,11 @@ std::string ViewSearchOptions::Validate() const {
 std::vector<ViewStart> SearchViews(const ProjectionOperator& op,
                                    const Eigen::MatrixXd& centred_atoms,
                                    const RotationOptions& prior, const ViewSearchOptions& options) {
-  const int num_3d = op.NumPoints() - op.Num2D();
+  const int num_3d = op.Num3D();
   const bool is_3d = num_3d > op.Num2D();
   Eigen::Matrix3Xd target = Eigen::Matrix3Xd::Zero(3, is_3d ? num_3d : op.Num2D());
   if (is_3d) {
-    target = op.target().tail(3 * num_3d).reshaped(3, num_3d);
+    target = op.target().segment(2 * op.Num2D(), 3 * num_3d).reshaped(3, num_3d);
   } else {
     target.topRows<2>() = op.target().head(2 * op.Num2D()).reshaped(2, op.Num2D());
   }

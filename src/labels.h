@@ -20,9 +20,28 @@ struct LandmarkLabel {
   std::optional<double> radius_px;  // standard deviation
 };
 
+// What a person knows of a body that no landmark shows. Joints are the 23 joints or
+// landmarks of the layout, depth is along z of cam.
+struct LabelHint {
+  enum class Kind {
+    kNearer,          // `joint` is nearer to the camera than `other`, by metres_m at least
+    kTowardsCamera,   // the bone that ends at `joint` (one of the 23) has its end nearer than its
+    kAwayFromCamera,  // start, by metres_m at least; or farther
+    kOnFloor,         // `joint` is on the floor, which is level in cam; no joint is below
+    kHeight,          // the person is metres_m tall, from the soles to the crown
+    kPin              // `joint` is at x_in_cam_m from the pelvis
+  };
+  Kind kind = Kind::kNearer;
+  std::string joint = {};
+  std::string other = {};
+  std::optional<double> metres_m = {};  // kHeight wants it
+  Eigen::Vector3d x_in_cam_m = Eigen::Vector3d::Zero();
+};
+
 struct PersonLabels {
   int id = 0;
   std::vector<LandmarkLabel> landmarks;
+  std::vector<LabelHint> hints = {};
 };
 
 struct FrameLabels {

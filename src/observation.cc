@@ -34,7 +34,7 @@ std::string ObserveOptions::Validate() const {
   if (!(occluded_sigma_factor >= 1.0))
     return fmt::format("ObserveOptions::occluded_sigma_factor = {}, wanted at least 1",
                        occluded_sigma_factor);
-  return "";
+  return relations.Validate();
 }
 
 Observation Observe(const PersonLabels& labels, const Layout& layout,
@@ -58,6 +58,28 @@ Observation Observe(const PersonLabels& labels, const Layout& layout,
     point.sigma = std::hypot(radius_px, offset_px);
     if (label.state == LabelState::kOccluded) point.sigma *= options.occluded_sigma_factor;
     observation.points.push_back(std::move(point));
+  }
+  observation.relations = RelationsOf(labels.hints, layout, options.relations);
+  for (const LabelHint& hint : labels.hints)
+    if (hint.kind == LabelHint::Kind::kHeight) observation.stature_m = hint.metres_m;
+  return observation;
+}
+
+Observation AtSkeletonSize(Observation observation, double size) {
+  observation.stature_m.reset();
+  for (ObservedPoint& point : observation.points) {
+    if (point.kind != ObservedPoint::Kind::k3D) continue;
+    point.x /= size;
+    point.sigma /= size;
+  }
+  for (ObservedBonePose& tag : observation.bone_poses) {
+    tag.bone_from_tag.translation() /= size;
+    tag.cam_from_tag.translation() /= size;
+    tag.sigma_m /= size;
+  }
+  for (JointRelation& relation : observation.relations) {
+    relation.bound_m /= size;
+    relation.sigma_m /= size;
   }
   return observation;
 }

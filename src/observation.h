@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "src/joint_relation.h"
 #include "src/labels.h"
 #include "src/layout.h"
 #include "src/pose3.h"
@@ -52,6 +53,10 @@ struct Observation {
   // For what solves for joint angles; the dictionary's poses have no bones to turn.
   std::vector<ObservedBonePose> bone_poses = {};
   std::optional<Pinhole> pinhole = std::nullopt;  // what took the picture, when it is known
+  std::vector<JointRelation> relations = {};      // of hints
+  // From the soles to the crown, of a hint. With it all metres here are the person's,
+  // else those of the skeleton that is lifted to.
+  std::optional<double> stature_m = std::nullopt;
 
   int Count(ObservedPoint::Kind kind) const;
 };
@@ -63,6 +68,7 @@ double Extent_px(const PersonLabels& labels);
 struct ObserveOptions {
   double relative_sigma = 0.012;       // of the labels' extent, where a label has no radius_px
   double occluded_sigma_factor = 3.0;  // an occluded joint's position is a guess
+  RelationOptions relations;
 
   std::string Validate() const;
 };
@@ -70,9 +76,13 @@ struct ObserveOptions {
 // Labels of one person as an observation: landmarks the layout maps to joints,
 // absent ones left out. A landmark that lies beside its sum of joints (an ear)
 // has its offset added to its sigma, at a body height of about the labels'
-// extent.
+// extent. Hints are relations and the stature (RelationsOf).
 Observation Observe(const PersonLabels& labels, const Layout& layout,
                     const ObserveOptions& options = {});
+
+// The same with all metres of the person divided by `size`, and no stature: of a person
+// `size` times as large as the skeleton, as the skeleton has it.
+Observation AtSkeletonSize(Observation observation, double size);
 
 // A pose in space as an observation (free dragging: P = identity); joints that
 // are NaN are not observed.

@@ -7,8 +7,10 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
+#include "lift/depth_mirror.h"
 #include "lift/eval/pose_error.h"
 
 namespace poselift {
@@ -65,15 +67,34 @@ void Summarize(const std::vector<double>& pa_mm, const std::vector<double>& cam_
   evaluation->cam_median_mm = Median(cam_mm);
 }
 
+std::optional<Pose3> LiftWithHints(const LiftMethod& method, const Case& one, int* num_hints) {
+  std::optional<Pose3> lifted = method.lift(one.observation);
+  std::vector<LabelHint> hints;
+  for (int i = 0; i < method.max_hints && lifted; ++i) {
+    const auto hint = HintOfWorstLimb(*lifted, one.truth_in_cam_m);
+    const bool is_said = hint && std::any_of(hints.begin(), hints.end(), [&](const LabelHint& h) {
+                           return h.joint == hint->joint;
+                         });
+    if (!hint || is_said) break;
+    hints.push_back(*hint);
+    Observation hinted = one.observation;
+    hinted.relations = RelationsOf(hints, *FindLayout("joints23"));
+    lifted = method.lift(hinted);
+  }
+  *num_hints = static_cast<int>(hints.size());
+  return lifted;
+}
+
 LiftEvaluation Evaluate(const LiftMethod& method, const std::vector<Case>& cases,
                         const std::function<void()>& advance) {
   using Clock = std::chrono::steady_clock;
   const auto count = static_cast<int>(cases.size());
   std::vector<double> pa_mm(cases.size()), cam_mm(cases.size()), seconds(cases.size());
+  std::vector<int> num_hints(cases.size());
 #pragma omp parallel for schedule(dynamic)
   for (int i = 0; i < count; ++i) {
     const auto start = Clock::now();
-    const std::optional<Pose3> lifted = method.lift(cases[i].observation);
+    const std::optional<Pose3> lifted = LiftWithHints(method, cases[i], &num_hints[i]);
     seconds[i] = std::chrono::duration<double>(Clock::now() - start).count();
     const double nan = std::numeric_limits<double>::quiet_NaN();
     pa_mm[i] = lifted ? PaError_mm(*lifted, cases[i].truth_in_cam_m) : nan;
@@ -86,11 +107,32 @@ LiftEvaluation Evaluate(const LiftMethod& method, const std::vector<Case>& cases
   LiftEvaluation evaluation{.method = method.name, .num_poses = count};
   evaluation.num_failed = count - static_cast<int>(pa_mm.size());
   evaluation.ms_per_lift = 1e3 * Mean(seconds);
+  evaluation.num_hints = std::accumulate(num_hints.begin(), num_hints.end(), 0.0) / count;
+  evaluation.num_hinted =
+      count - static_cast<int>(std::count(num_hints.begin(), num_hints.end(), 0));
   Summarize(pa_mm, cam_mm, &evaluation);
   return evaluation;
 }
 
 }  // namespace
+
+std::optional<LabelHint> HintOfWorstLimb(const Pose3& lifted_in_cam_m,
+                                         const Pose3& truth_in_cam_m) {
+  std::optional<LabelHint> worst;
+  double deepest_m = kLeastFlip_m;
+  for (const Limb limb : {Limb::kLeftLeg, Limb::kRightLeg, Limb::kLeftArm, Limb::kRightArm})
+    for (const int end : JointsOfLimb(limb).subspan(1, 2)) {
+      const int start = Joints()[static_cast<size_t>(end)].parent;
+      const double truth_m = truth_in_cam_m(2, end) - truth_in_cam_m(2, start);
+      const double lifted_m = lifted_in_cam_m(2, end) - lifted_in_cam_m(2, start);
+      if (truth_m * lifted_m >= 0.0 || std::abs(truth_m) < deepest_m) continue;
+      deepest_m = std::abs(truth_m);
+      worst = LabelHint{
+          truth_m < 0.0 ? LabelHint::Kind::kTowardsCamera : LabelHint::Kind::kAwayFromCamera,
+          std::string(Joints()[static_cast<size_t>(end)].name)};
+    }
+  return worst;
+}
 
 std::vector<LiftEvaluation> EvaluateLift(const std::vector<LiftMethod>& methods,
                                          const Eigen::MatrixXd& test_poses_m,

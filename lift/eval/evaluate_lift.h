@@ -23,14 +23,24 @@ struct LiftMethod {
   std::string name;
   // Joints in cam; nothing when the method gives up.
   std::function<std::optional<Pose3>(const Observation&)> lift;
+  // Somebody who knows the truth looks at the answer and gives a hint, up to so many times
+  // (HintOfWorstLimb); each time it lifts again.
+  int max_hints = 0;
 };
+
+// What somebody who sees the true pose says of a lifted one: of the upper arms, forearms,
+// thighs and shanks that go the wrong way in depth, by at least kLeastFlip_m in truth,
+// which way the deepest goes. Nothing when all are right.
+std::optional<LabelHint> HintOfWorstLimb(const Pose3& lifted_in_cam_m, const Pose3& truth_in_cam_m);
 
 struct LiftEvaluation {
   std::string method;
   std::string views;
   double noise_mm = 0.0;
   int num_poses = 0;
-  int num_failed = 0;  // not in the errors
+  int num_failed = 0;      // not in the errors
+  double num_hints = 0.0;  // given, mean of the poses
+  int num_hinted = 0;      // poses that were given any
   double pa_mm = 0.0, pa_standard_error_mm = 0.0, pa_median_mm = 0.0;
   double cam_mm = 0.0, cam_standard_error_mm = 0.0, cam_median_mm = 0.0;
   double ms_per_lift = 0.0;  // of one thread's time

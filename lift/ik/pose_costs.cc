@@ -55,6 +55,16 @@ class ArticulatedCost : public ceres::CostFunction {
             joint_jacobian_.middleRows<kRowsAPoint>(3 * part.joint);
   }
 
+  // The same, a row a point: along its x.
+  void DifferentiateAlongAxes() const {
+    by_pose_.setZero(num_residuals(), joint_jacobian_.cols());
+    for (size_t i = 0; i < points_.size(); ++i)
+      for (const Landmark::Part& part : points_[i].parts)
+        by_pose_.row(static_cast<Eigen::Index>(i)) +=
+            points_[i].root_weight * part.weight *
+            (points_[i].x.transpose() * joint_jacobian_.middleRows<3>(3 * part.joint));
+  }
+
   void WritePoseJacobians(double** jacobians) const {
     const Eigen::Index rows = num_residuals();
     if (jacobians[0]) RowMajorMap(jacobians[0], rows, 3) = by_pose_.leftCols<3>();
@@ -213,6 +223,45 @@ class ReprojectionCost final : public ArticulatedCost {
   }
 };
 
+std::vector<TargetPoint> PointsOf(const std::vector<JointRelation>& relations) {
+  std::vector<TargetPoint> points;
+  for (const JointRelation& relation : relations)
+    points.push_back({relation.parts, relation.axis_in_cam, 1.0 / relation.sigma_m});
+  return points;
+}
+
+// Its points are differences of joints, whose x is the axis.
+class RelationCost final : public ArticulatedCost {
+ public:
+  RelationCost(const Articulation& body, std::vector<JointRelation> relations)
+      : ArticulatedCost(body, PointsOf(relations), 3), relations_(std::move(relations)) {
+    set_num_residuals(static_cast<int>(relations_.size()));
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    PosePoints(parameters, jacobians != nullptr);
+    for (size_t i = 0; i < relations_.size(); ++i) {
+      const JointRelation& relation = relations_[i];
+      const double residual =
+          (relation.axis_in_cam.dot(posed_m_.col(static_cast<Eigen::Index>(i))) -
+           relation.bound_m) /
+          relation.sigma_m;
+      residuals[i] = relation.is_lower_bound ? std::min(0.0, residual) : residual;
+    }
+    if (!jacobians) return true;
+    DifferentiateAlongAxes();
+    for (size_t i = 0; i < relations_.size(); ++i)
+      if (relations_[i].is_lower_bound && residuals[i] == 0.0)
+        by_pose_.row(static_cast<Eigen::Index>(i)).setZero();
+    WritePoseJacobians(jacobians);
+    return true;
+  }
+
+ private:
+  std::vector<JointRelation> relations_;
+};
+
 class PriorCost final : public ceres::CostFunction {
  public:
   PriorCost(const Articulation& body, const PosePrior& prior) : body_(body), prior_(prior) {
@@ -282,6 +331,11 @@ std::unique_ptr<ceres::CostFunction> MakeSpaceCost(
 std::unique_ptr<ceres::CostFunction> MakeReprojectionCost(const Articulation& body,
                                                           std::vector<TargetPoint> points) {
   return std::make_unique<ReprojectionCost>(body, std::move(points));
+}
+
+std::unique_ptr<ceres::CostFunction> MakeRelationCost(const Articulation& body,
+                                                      std::vector<JointRelation> relations) {
+  return std::make_unique<RelationCost>(body, std::move(relations));
 }
 
 std::unique_ptr<ceres::CostFunction> MakePriorCost(const Articulation& body,

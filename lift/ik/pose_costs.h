@@ -51,6 +51,11 @@ std::unique_ptr<ceres::CostFunction> MakeSpaceCost(
 std::unique_ptr<ceres::CostFunction> MakeReprojectionCost(const Articulation& body,
                                                           std::vector<TargetPoint> points);
 
+// JointRelation::Residual of f(q), a row each; the pose's world is `cam`, and the skeleton
+// has all their joints.
+std::unique_ptr<ceres::CostFunction> MakeRelationCost(const Articulation& body,
+                                                      std::vector<JointRelation> relations);
+
 // whitening (f_0(dofs) - mean), 69 rows: how uncommon the pose is to the prior,
 // which must outlive the cost. f_0: the joints with the root at rest (the body
 // frame), all 23. Its only parameter block is the dofs.

@@ -41,6 +41,16 @@ std::vector<TargetPoint> PointsOfKind(const Observation& observation, ObservedPo
   return points;
 }
 
+std::vector<JointRelation> RelationsThatShow(const Observation& observation,
+                                             const JointSites& sites) {
+  std::vector<JointRelation> relations = observation.relations;
+  std::erase_if(relations, [&](const JointRelation& relation) {
+    return std::any_of(relation.parts.begin(), relation.parts.end(),
+                       [&](const auto& part) { return sites[part.joint].bone < 0; });
+  });
+  return relations;
+}
+
 Eigen::Vector2d PosedPoint(const TargetPoint& point, const Pose3& joints_m) {
   return SumOfJoints(point.parts, joints_m).head<2>();
 }
@@ -199,6 +209,8 @@ RefinementResult PoseRefinement::Solve(const Pose3& code_in_cam_m, const Observa
   if (!prior_.Empty()) problem.AddDofsTerm(MakePriorCost(body, prior_));
   if (!seen_m.empty() || !observation.bone_poses.empty())
     problem.AddPoseTerm(MakeSpaceCost(body, seen_m, true, observation.bone_poses));
+  if (auto relations = RelationsThatShow(observation, body.sites); !relations.empty())
+    problem.AddPoseTerm(MakeRelationCost(body, std::move(relations)));
   double log_start_scale = 0.0;
   if (!seen_px.empty()) {
     const WeakCamera camera = FitCamera(seen_px, JointPositions(body, problem.pose()));

@@ -53,6 +53,7 @@ struct RefinementResult {
 //      + prior_weight^2 |whitening (f_0(dofs) - mean)|^2        the pose prior
 //      + sum_i |s (m_i f(q))_xy + t - x_i_px|^2 / sigma_i^2     2D points
 //      + sum_k |m_k f(q) + u - x_k_m|^2 / sigma_k^2             3D points, and tags
+//      + sum_r |residual_r(f(q))|^2                              relations of joints (hints)
 //      + the weak pull of the dofs to rest,   lower <= dofs <= upper, s > 0.
 // f has the skeleton's bone lengths, so that these hold exactly while labels,
 // code and prior are traded off. f_0 is f with the root at rest. The code is

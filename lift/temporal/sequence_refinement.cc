@@ -77,6 +77,7 @@ class PieceProblem {
     if (unknowns_.size() > 1) TakeNearerSign();
     AddBlocks(evidence);
     AddObservation(evidence.observation);
+    AddRelations(evidence.observation.relations);
     AddPosePriors(evidence);
     AddScale(evidence.camera.scale_px_per_m);
     if (unknowns_.size() > 1 && evidence.local) AddRate(*evidence.local);
@@ -203,6 +204,10 @@ class PieceProblem {
     if (!in_space.empty() || !observation.bone_poses.empty())
       AddPoseTerm(MakeSpaceCost(seen_, std::move(in_space), false, observation.bone_poses),
                   nullptr);
+  }
+
+  void AddRelations(const std::vector<JointRelation>& relations) {
+    if (!relations.empty()) AddPoseTerm(MakeRelationCost(seen_, relations), nullptr);
   }
 
   void AddPosePriors(const FrameEvidence& evidence) {

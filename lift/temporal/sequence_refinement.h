@@ -76,7 +76,7 @@ struct RefinedFrame {
 // The MAP of a whole sequence, Eq. (2) of the motion paper with frames to come as
 // well as those before, over poses q_t, scales and translations of the camera:
 //
-//   min sum_t  reprojection, 3D points and tags of the frame, as (P0)
+//   min sum_t  reprojection, 3D points, tags and hints of the frame, as (P0)
 //            + gamma |f(q_t) - y_t|^2 + prior_weight^2 |whitening (f_0 - mean)|^2
 //            + rho(|local whitening delta(q_t)|^2)                  (local_pose.h)
 //            + |q_t - q_t-1 - dt rate_t|^2 / rate_sigma^2

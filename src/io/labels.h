@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "src/labels.h"
@@ -28,9 +29,12 @@ namespace poselift {
 Labels ReadLabels(const std::filesystem::path& path, std::string_view layout = "auto");
 
 // Writes poselift-labels version 1, a line for each person. Reading it back
-// gives equal labels. An absent landmark has no position in the file.
+// gives equal labels, with the places where absent landmarks were.
 // Throws InputError when the file cannot be written, std::invalid_argument for
 // positions that are not finite.
+//
+// LabelsText: the bytes of that file.
+std::string LabelsText(const Labels& labels);
 void WriteLabels(const Labels& labels, const std::filesystem::path& path);
 
 }  // namespace poselift

@@ -2,8 +2,10 @@
 // Copyright (c) 2026 the poselift authors
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "src/io/json_value.h"
 #include "src/labels.h"
@@ -15,6 +17,17 @@ namespace poselift {
 
 bool IsNativeLabels(const JsonValue& root);
 Labels ReadNativeLabels(const JsonValue& root, const Layout* layout);
+
+// Pieces of poselift-labels, for files that hold changes of labels.
+std::vector<PersonLabels> ReadNativePeople(const JsonValue& json, const Layout& layout);
+FrameLabels ReadNativeFrame(const JsonValue& json, const Layout& layout);
+void AppendNativePeople(const std::vector<PersonLabels>& people, std::string* out);
+void AppendNativeFrame(const FrameLabels& frame, std::string* out);
+// Empty, or why a person with the hints `before` cannot have this one as well.
+std::string WhatIsWrongWith(const LabelHint& hint, std::span<const LabelHint> before,
+                            const Layout& layout);
+// Bound of a time in seconds.
+inline constexpr double kLargestTime_s = 1e9;
 
 bool IsCocoLabels(const JsonValue& root);
 Labels ReadCocoLabels(const JsonValue& root, const Layout* layout);

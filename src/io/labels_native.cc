@@ -16,13 +16,13 @@
 #include "src/io/labels.h"
 #include "src/io/labels_formats.h"
 #include "src/io/text_scanner.h"
+#include "src/joint_relation.h"
 #include "src/nearest_names.h"
 
 namespace poselift {
 namespace {
 
 constexpr std::string_view kFormat = "poselift-labels";
-constexpr double kLargestTime_s = 1e9;
 constexpr std::string_view kStateNames[] = {"visible", "occluded", "absent"};
 
 const JsonValue& Joints(const JsonValue& person) { return person.At("joints"); }
@@ -95,6 +95,52 @@ LandmarkLabel ReadLandmark(const JsonValue& json, std::string_view name) {
   return landmark;
 }
 
+constexpr std::pair<std::string_view, LabelHint::Kind> kHintKinds[] = {
+    {"nearer", LabelHint::Kind::kNearer},
+    {"towards_camera", LabelHint::Kind::kTowardsCamera},
+    {"away_from_camera", LabelHint::Kind::kAwayFromCamera},
+    {"on_floor", LabelHint::Kind::kOnFloor},
+    {"height", LabelHint::Kind::kHeight},
+    {"pin", LabelHint::Kind::kPin}};
+
+LabelHint::Kind ReadHintKind(const JsonValue& kind) {
+  std::string names;
+  for (const auto& [name, value] : kHintKinds) {
+    if (kind.String() == name) return value;
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  throw kind.Unwanted("one of " + names);
+}
+
+LabelHint ReadHint(const JsonValue& json) {
+  LabelHint hint;
+  hint.kind = ReadHintKind(json.At("kind"));
+  if (hint.kind != LabelHint::Kind::kHeight) hint.joint = json.At("joint").String();
+  if (hint.kind == LabelHint::Kind::kNearer) hint.other = json.At("than").String();
+  if (hint.kind == LabelHint::Kind::kHeight)
+    hint.metres_m = json.At("metres").Number();
+  else if (const JsonValue* metres = json.Find("metres"))
+    hint.metres_m = metres->Number();
+  if (hint.kind == LabelHint::Kind::kPin) {
+    const JsonValue& place = json.At("x_in_cam");
+    if (place.Items().size() != 3) throw place.Unwanted("three metres from the pelvis");
+    for (Eigen::Index i = 0; i < 3; ++i)
+      hint.x_in_cam_m[i] = place.Items()[static_cast<size_t>(i)].Number();
+  }
+  return hint;
+}
+
+std::vector<LabelHint> ReadHints(const JsonValue& json, const Layout& layout) {
+  std::vector<LabelHint> hints;
+  for (const JsonValue& item : json.Items()) {
+    const LabelHint hint = ReadHint(item);
+    if (const std::string error = WhatIsWrongWith(hint, hints, layout); !error.empty())
+      throw item.Error(error);
+    hints.push_back(hint);
+  }
+  return hints;
+}
+
 PersonLabels ReadPerson(const JsonValue& json, const Layout& layout, int index) {
   PersonLabels person;
   person.id = index;
@@ -110,28 +156,8 @@ PersonLabels ReadPerson(const JsonValue& json, const Layout& layout, int index) 
       throw landmark.Error(fmt::format("found the joint {} under two names, wanted one", name));
     person.landmarks.push_back(ReadLandmark(landmark, name));
   }
+  if (const JsonValue* hints = json.Find("hints")) person.hints = ReadHints(*hints, layout);
   return person;
-}
-
-FrameLabels ReadFrame(const JsonValue& json, const Layout& layout) {
-  FrameLabels frame;
-  if (const JsonValue* image = json.Find("image")) frame.image = image->String();
-  if (const JsonValue* width = json.Find("width"))
-    frame.width_px = width->Integer(0, kLargestPicture_px);
-  if (const JsonValue* height = json.Find("height"))
-    frame.height_px = height->Integer(0, kLargestPicture_px);
-  if (const JsonValue* time = json.Find("time_s"))
-    frame.time_s = time->Number(-kLargestTime_s, kLargestTime_s);
-  if (const JsonValue* index = json.Find("frame"))
-    frame.frame = index->Integer(0, std::numeric_limits<int>::max());
-  std::set<int> ids;
-  for (const JsonValue& person : json.At("people").Items()) {
-    frame.people.push_back(ReadPerson(person, layout, static_cast<int>(frame.people.size())));
-    const int id = frame.people.back().id;
-    if (!ids.insert(id).second)
-      throw person.Error(fmt::format("found a second person with the id {}, wanted one", id));
-  }
-  return frame;
 }
 
 void AppendNumber(double value, std::string* out) {
@@ -142,7 +168,8 @@ void AppendNumber(double value, std::string* out) {
 void AppendLandmark(const LandmarkLabel& landmark, std::string* out) {
   AppendJsonString(landmark.name, out);
   *out += ": {";
-  if (landmark.state != LabelState::kAbsent) {
+  // An absent landmark may have a place: where it was, and will be when it is seen again.
+  if (landmark.state != LabelState::kAbsent || !landmark.x_px.isZero(0.0)) {
     *out += "\"x\": ";
     AppendNumber(landmark.x_px.x(), out);
     *out += ", \"y\": ";
@@ -157,16 +184,63 @@ void AppendLandmark(const LandmarkLabel& landmark, std::string* out) {
   *out += "}";
 }
 
+void AppendHint(const LabelHint& hint, std::string* out) {
+  const auto* kind = std::find_if(std::begin(kHintKinds), std::end(kHintKinds),
+                                  [&](const auto& named) { return named.second == hint.kind; });
+  *out += fmt::format("{{\"kind\": \"{}\"", kind->first);
+  const auto append_name = [&](const char* key, const std::string& name) {
+    if (name.empty()) return;
+    *out += fmt::format(", \"{}\": ", key);
+    AppendJsonString(name, out);
+  };
+  append_name("joint", hint.joint);
+  append_name("than", hint.other);
+  if (hint.metres_m) {
+    *out += ", \"metres\": ";
+    AppendNumber(*hint.metres_m, out);
+  }
+  if (hint.kind == LabelHint::Kind::kPin)
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      *out += i == 0 ? ", \"x_in_cam\": [" : ", ";
+      AppendNumber(hint.x_in_cam_m[i], out);
+    }
+  *out += hint.kind == LabelHint::Kind::kPin ? "]}" : "}";
+}
+
 void AppendPerson(const PersonLabels& person, std::string* out) {
   *out += fmt::format("    {{\"id\": {}, \"joints\": {{", person.id);
   for (size_t i = 0; i < person.landmarks.size(); ++i) {
     if (i > 0) *out += ", ";
     AppendLandmark(person.landmarks[i], out);
   }
-  *out += "}}";
+  *out += "}";
+  for (size_t i = 0; i < person.hints.size(); ++i) {
+    *out += i > 0 ? ", " : ", \"hints\": [";
+    AppendHint(person.hints[i], out);
+  }
+  *out += person.hints.empty() ? "}" : "]}";
 }
 
-void AppendFrame(const FrameLabels& frame, std::string* out) {
+}  // namespace
+
+std::string WhatIsWrongWith(const LabelHint& hint, std::span<const LabelHint> before,
+                            const Layout& layout) {
+  const auto is_height = [](const LabelHint& h) { return h.kind == LabelHint::Kind::kHeight; };
+  if (is_height(hint) && std::any_of(before.begin(), before.end(), is_height))
+    return "found a second height of a person, wanted one";
+  return WhatIsWrongWith(hint, layout);
+}
+
+void AppendNativePeople(const std::vector<PersonLabels>& people, std::string* out) {
+  *out += "[";
+  for (size_t i = 0; i < people.size(); ++i) {
+    *out += i > 0 ? ",\n" : "\n";
+    AppendPerson(people[i], out);
+  }
+  *out += "]";
+}
+
+void AppendNativeFrame(const FrameLabels& frame, std::string* out) {
   *out += "  {";
   if (!frame.image.empty()) {
     *out += "\"image\": ";
@@ -181,15 +255,37 @@ void AppendFrame(const FrameLabels& frame, std::string* out) {
     *out += ", ";
   }
   if (frame.frame) *out += fmt::format("\"frame\": {}, ", *frame.frame);
-  *out += "\"people\": [";
-  for (size_t i = 0; i < frame.people.size(); ++i) {
-    *out += i > 0 ? ",\n" : "\n";
-    AppendPerson(frame.people[i], out);
-  }
-  *out += "]}";
+  *out += "\"people\": ";
+  AppendNativePeople(frame.people, out);
+  *out += "}";
 }
 
-}  // namespace
+std::vector<PersonLabels> ReadNativePeople(const JsonValue& json, const Layout& layout) {
+  std::vector<PersonLabels> people;
+  std::set<int> ids;
+  for (const JsonValue& person : json.Items()) {
+    people.push_back(ReadPerson(person, layout, static_cast<int>(people.size())));
+    const int id = people.back().id;
+    if (!ids.insert(id).second)
+      throw person.Error(fmt::format("found a second person with the id {}, wanted one", id));
+  }
+  return people;
+}
+
+FrameLabels ReadNativeFrame(const JsonValue& json, const Layout& layout) {
+  FrameLabels frame;
+  if (const JsonValue* image = json.Find("image")) frame.image = image->String();
+  if (const JsonValue* width = json.Find("width"))
+    frame.width_px = width->Integer(0, kLargestPicture_px);
+  if (const JsonValue* height = json.Find("height"))
+    frame.height_px = height->Integer(0, kLargestPicture_px);
+  if (const JsonValue* time = json.Find("time_s"))
+    frame.time_s = time->Number(-kLargestTime_s, kLargestTime_s);
+  if (const JsonValue* index = json.Find("frame"))
+    frame.frame = index->Integer(0, std::numeric_limits<int>::max());
+  frame.people = ReadNativePeople(json.At("people"), layout);
+  return frame;
+}
 
 bool IsNativeLabels(const JsonValue& root) {
   return root.Is(JsonValue::Kind::kObject) && root.Find("format");
@@ -204,20 +300,24 @@ Labels ReadNativeLabels(const JsonValue& root, const Layout* layout) {
   Labels labels;
   labels.layout = layout->name;
   for (const JsonValue& frame : root.At("frames").Items())
-    labels.frames.push_back(ReadFrame(frame, *layout));
+    labels.frames.push_back(ReadNativeFrame(frame, *layout));
   return labels;
 }
 
-void WriteLabels(const Labels& labels, const std::filesystem::path& path) {
+std::string LabelsText(const Labels& labels) {
   std::string text = fmt::format("{{\"format\": \"{}\", \"version\": 1, \"layout\": ", kFormat);
   AppendJsonString(labels.layout, &text);
   text += ",\n \"frames\": [";
   for (size_t i = 0; i < labels.frames.size(); ++i) {
     text += i > 0 ? ",\n" : "\n";
-    AppendFrame(labels.frames[i], &text);
+    AppendNativeFrame(labels.frames[i], &text);
   }
   text += "]}\n";
-  WriteFileAtomically(path, text);
+  return text;
+}
+
+void WriteLabels(const Labels& labels, const std::filesystem::path& path) {
+  WriteFileAtomically(path, LabelsText(labels));
 }
 
 }  // namespace poselift

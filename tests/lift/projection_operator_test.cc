@@ -20,6 +20,7 @@ namespace {
 using testing::MatrixNear;
 using testing::RandomMatrix;
 using testing::RandomMixture;
+using testing::SomeRelations;
 using testing::TestRng;
 
 constexpr int kNumbers = 3 * kNumJoints;
@@ -61,6 +62,50 @@ TEST(ProjectionOperator, ApplyToAllIsApplyOnEveryColumn) {
       const Eigen::VectorXd expected = op.Apply(R, 40.0, atoms.col(k));
       EXPECT_TRUE(MatrixNear(rows.col(k), expected, 1e-12 * (1.0 + expected.norm())));
     }
+  }
+}
+
+TEST(ProjectionOperator, RelationsAreRowsOfTheJointsInCam) {
+  std::mt19937_64 rng = TestRng();
+  for (int trial = 0; trial < 20; ++trial) {
+    Observation observation = RandomMixture(&rng);
+    const ProjectionOperator without(observation);
+    observation.relations = SomeRelations();
+    const ProjectionOperator op(observation);
+    const int num_relations = static_cast<int>(observation.relations.size());
+    ASSERT_EQ(op.NumRows(), without.NumRows() + num_relations);
+    EXPECT_EQ(op.NumPointRows(), without.NumRows());
+    const Eigen::Matrix3d R = RandomRotation(&rng);
+    const Eigen::VectorXd y = RandomMatrix(kNumbers, 1, &rng);
+    const Eigen::VectorXd rows = op.Apply(R, 30.0, y);
+    EXPECT_EQ(rows.head(without.NumRows()), without.Apply(R, 30.0, y));
+    EXPECT_EQ(op.target().head(without.NumRows()), without.target());
+    const Eigen::VectorXd residual = op.Residual(R, 30.0, op.CentredPoints(y));
+    const Eigen::ArrayXd active = op.ActiveRows(rows - op.target());
+    const Pose3 joints_in_cam = R * Unstacked(y);
+    for (int i = 0; i < num_relations; ++i) {
+      const double expected = observation.relations[static_cast<size_t>(i)].Residual(joints_in_cam);
+      const Eigen::Index row = without.NumRows() + i;
+      EXPECT_NEAR(residual[row], expected, 1e-9);
+      EXPECT_EQ(active[row], expected == 0.0 ? 0.0 : 1.0);
+    }
+  }
+}
+
+TEST(ProjectionOperator, AdjointAndAllColumnsHaveTheRelationsToo) {
+  std::mt19937_64 rng = TestRng();
+  Observation observation = RandomMixture(&rng);
+  observation.relations = SomeRelations();
+  const ProjectionOperator op(observation);
+  const Eigen::Matrix3d R = RandomRotation(&rng);
+  const Eigen::MatrixXd atoms = RandomMatrix(kNumbers, 7, &rng);
+  const Eigen::VectorXd v = RandomMatrix(op.NumRows(), 1, &rng);
+  Eigen::MatrixXd rows(op.NumRows(), atoms.cols());
+  op.ApplyToAll(R, 40.0, op.CentredPointsOfAll(atoms), rows);
+  for (int k = 0; k < atoms.cols(); ++k) {
+    const Eigen::VectorXd expected = op.Apply(R, 40.0, atoms.col(k));
+    EXPECT_TRUE(MatrixNear(rows.col(k), expected, 1e-12 * expected.norm()));
+    EXPECT_NEAR(expected.dot(v), atoms.col(k).dot(op.Adjoint(R, 40.0, v)), 1e-9 * expected.norm());
   }
 }
 

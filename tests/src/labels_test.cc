@@ -122,9 +122,29 @@ TEST(NativeLabels, KeepEveryDigitOfAPosition) {
             Eigen::Vector2d(0.1 + 0.2, 1e-7));
 }
 
+TEST(NativeLabels, KeepWhereAnAbsentLandmarkWas) {
+  Labels labels{"body15", {FrameLabels{}}};
+  labels.frames[0].people.push_back({0,
+                                     {{"neck", {3.25, -0.5}, LabelState::kAbsent, {}},
+                                      {"pelvis", {0.0, 0.0}, LabelState::kAbsent, {}}}});
+  const auto path = testing::ScratchDir() / "absent.json";
+  WriteLabels(labels, path);
+  EXPECT_THAT(testing::FileText(path), HasSubstr(R"("pelvis": {"state": "absent"})"));
+  const auto again = ReadLabels(path).frames[0].people[0].landmarks;
+  EXPECT_EQ(again[0].state, LabelState::kAbsent);
+  EXPECT_EQ(again[0].x_px, Eigen::Vector2d(3.25, -0.5));
+  EXPECT_EQ(again[1].x_px, Eigen::Vector2d::Zero());
+}
+
 TEST(NativeLabels, RefuseToWriteWhatIsNotFinite) {
   Labels labels{"body15", {FrameLabels{}}};
   labels.frames[0].people.push_back({0, {{"neck", {NAN, 1}, LabelState::kVisible, {}}}});
+  EXPECT_THROW(WriteLabels(labels, testing::ScratchDir() / "x.json"), std::invalid_argument);
+}
+
+TEST(NativeLabels, RefuseToWriteAHintThatIsNotFinite) {
+  Labels labels{"body15", {FrameLabels{}}};
+  labels.frames[0].people.push_back({0, {}, {{LabelHint::Kind::kHeight, "", "", NAN}}});
   EXPECT_THROW(WriteLabels(labels, testing::ScratchDir() / "x.json"), std::invalid_argument);
 }
 
@@ -200,6 +220,94 @@ INSTANTIATE_TEST_SUITE_P(
         Flaw{"Comma", "\"occluded\"},", "\"occluded\"}", "7", "no valid JSON: "},
         Flaw{"JointsAsList", "{\"state\": \"absent\"}", "[1]", "8",
              "pelvis: found a list of 1, wanted an object"}),
+    [](const auto& param_info) { return param_info.param.name; });
+
+// kNative with hints of the first person, which stand in line 8.
+std::string WithHints(const std::string& hints) {
+  return Replaced(kNative, "\"pelvis\": {\"state\": \"absent\"}}",
+                  "\"pelvis\": {\"state\": \"absent\"}}, \"hints\": [" + hints + "]");
+}
+
+TEST(NativeLabels, SayWhatNoLandmarkShows) {
+  const Labels labels = Read(
+      WithHints(R"({"kind": "nearer", "joint": "left_wrist", "than": "right_hand", "metres": 0.1},
+  {"kind": "towards_camera", "joint": "left_knee"}, {"kind": "away_from_camera", "joint": "head"},
+  {"kind": "on_floor", "joint": "left_foot"}, {"kind": "height", "metres": 1.82},
+  {"kind": "pin", "joint": "right_wrist", "x_in_cam": [0.31, -0.2, -4.5e-1]})"));
+  const auto& hints = labels.frames[0].people[0].hints;
+  ASSERT_EQ(hints.size(), 6u);
+  EXPECT_EQ(hints[0].kind, LabelHint::Kind::kNearer);
+  EXPECT_EQ(hints[0].joint, "left_wrist");
+  EXPECT_EQ(hints[0].other, "right_hand");
+  EXPECT_EQ(hints[0].metres_m, 0.1);
+  EXPECT_EQ(hints[1].kind, LabelHint::Kind::kTowardsCamera);
+  EXPECT_EQ(hints[1].metres_m, std::nullopt);
+  EXPECT_EQ(hints[2].kind, LabelHint::Kind::kAwayFromCamera);
+  EXPECT_EQ(hints[3].kind, LabelHint::Kind::kOnFloor);
+  EXPECT_EQ(hints[3].joint, "left_foot");
+  EXPECT_EQ(hints[4].kind, LabelHint::Kind::kHeight);
+  EXPECT_EQ(hints[4].metres_m, 1.82);
+  EXPECT_EQ(hints[5].kind, LabelHint::Kind::kPin);
+  EXPECT_EQ(hints[5].x_in_cam_m, Eigen::Vector3d(0.31, -0.2, -0.45));
+  EXPECT_EQ(labels.layout, "body15");
+
+  const auto path = testing::ScratchDir() / "hints.json";
+  const auto twice = testing::ScratchDir() / "hints_twice.json";
+  WriteLabels(labels, path);
+  const Labels again = ReadLabels(path);
+  EXPECT_EQ(again.frames[0].people[0].hints.size(), 6u);
+  WriteLabels(again, twice);
+  EXPECT_EQ(testing::FileText(twice), testing::FileText(path));
+}
+
+struct FlawedHint {
+  const char* name;
+  const char* hint;
+  const char* message;
+};
+
+class FlawedHints : public ::testing::TestWithParam<FlawedHint> {};
+
+TEST_P(FlawedHints, AreRefusedWithPlaceAndReason) {
+  EXPECT_THAT(Complaint(WithHints(GetParam().hint)),
+              AllOf(HasSubstr("labels.json:8: "), HasSubstr(GetParam().message)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, FlawedHints,
+    ::testing::Values(
+        FlawedHint{"Kind", R"({"kind": "closer", "joint": "neck", "than": "left_knee"})",
+                   "people[0].hints[0].kind: found \"closer\", wanted one of nearer, "},
+        FlawedHint{"NoKind", R"({"joint": "neck"})", "found no \"kind\""},
+        FlawedHint{"Joint", R"({"kind": "on_floor", "joint": "left_ankel"})",
+                   "hints[0]: found a hint of the unknown joint \"left_ankel\", wanted perhaps "
+                   "\"left_ankle\""},
+        FlawedHint{"Other", R"({"kind": "nearer", "joint": "neck", "than": "tail"})", "\"tail\""},
+        FlawedHint{"NoOther", R"({"kind": "nearer", "joint": "neck"})", "found no \"than\""},
+        FlawedHint{"Itself", R"({"kind": "nearer", "joint": "neck", "than": "neck"})",
+                   "neck nearer than itself"},
+        FlawedHint{"BoneOfThePelvis", R"({"kind": "towards_camera", "joint": "pelvis"})",
+                   "found a bone that ends at \"pelvis\""},
+        FlawedHint{"Height", R"({"kind": "height", "metres": 182})", "found a height of 182 m"},
+        FlawedHint{"NoHeight", R"({"kind": "height"})", "found no \"metres\""},
+        FlawedHint{"TwoHeights",
+                   R"({"kind": "height", "metres": 1.8}, {"kind": "height", "metres": 1.7})",
+                   "hints[1]: found a second height"},
+        FlawedHint{"HowFarAboveTheFloor",
+                   R"({"kind": "on_floor", "joint": "left_foot", "metres": 0.3})",
+                   "found metres of left_foot on the floor, wanted none"},
+        FlawedHint{"HowFarFromAPin",
+                   R"({"kind": "pin", "joint": "neck", "metres": 0.3, "x_in_cam": [0, 0, 0]})",
+                   "found metres of neck pinned, wanted none"},
+        FlawedHint{"NotFinite", R"({"kind": "height", "metres": NaN})", "no valid JSON"},
+        FlawedHint{"Negative",
+                   R"({"kind": "towards_camera", "joint": "left_knee", "metres": -0.1})",
+                   "found -0.1 m"},
+        FlawedHint{"PinOfTwo", R"({"kind": "pin", "joint": "neck", "x_in_cam": [1, 2]})",
+                   "wanted three metres from the pelvis"},
+        FlawedHint{"FarPin", R"({"kind": "pin", "joint": "neck", "x_in_cam": [1, 2, 300]})",
+                   "found a pin at (1, 2, 300)"},
+        FlawedHint{"NoList", R"(5)", "hints[0]: found 5, wanted an object"}),
     [](const auto& param_info) { return param_info.param.name; });
 
 TEST(NativeLabels, RefuseTwoPeopleWithOneId) {

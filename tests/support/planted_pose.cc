@@ -95,4 +95,15 @@ Observation RandomMixture(std::mt19937_64* rng) {
   return observation;
 }
 
+std::vector<JointRelation> SomeRelations() {
+  const Layout& layout = *FindLayout("body15");
+  const std::vector<LabelHint> hints = {{LabelHint::Kind::kNearer, "left_wrist", "neck"},
+                                        {LabelHint::Kind::kNearer, "neck", "left_wrist", 0.3},
+                                        {LabelHint::Kind::kAwayFromCamera, "right_knee"},
+                                        {LabelHint::Kind::kOnFloor, "left_ankle"},
+                                        {LabelHint::Kind::kOnFloor, "right_hand"},
+                                        {LabelHint::Kind::kPin, "left_elbow", "", {}, {1, 2, 3}}};
+  return RelationsOf(hints, layout);
+}
+
 }  // namespace poselift::testing

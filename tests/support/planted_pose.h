@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <random>
+#include <vector>
 
 #include "lift/dictionary.h"
 #include "lift/sparse_code.h"
@@ -41,5 +42,9 @@ Observation Masked(Observation observation, double hidden_share, std::mt19937_64
 // Three points in the picture, four in space, some of them sums of joints, with
 // sigmas that differ; no pose behind them.
 Observation RandomMixture(std::mt19937_64* rng);
+
+// Of hints of all kinds that contradict each other: some bounds hold in a pose, some do
+// not.
+std::vector<JointRelation> SomeRelations();
 
 }  // namespace poselift::testing

@@ -6,6 +6,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -33,6 +34,7 @@ struct Options {
   TrainOptions train;
   EvaluateLiftOptions evaluation;
   int exemplars = 10000;
+  std::vector<int> hints;
 };
 
 LiftMethod CodeOnly(std::string name, const Dictionary& dictionary, const LifterOptions& options) {
@@ -70,14 +72,16 @@ LiftMethod Exemplars(const Eigen::MatrixXd& poses_m, int count) {
 }
 
 void Print(const std::vector<LiftEvaluation>& rows) {
-  fmt::print("{:<6} {:>5}  {:<28} {:>14} {:>9} {:>14} {:>9} {:>8} {:>6}\n", "views", "noise",
-             "method", "PA mm", "median", "CAM mm", "median", "ms/lift", "failed");
+  fmt::print("{:<6} {:>5}  {:<28} {:>14} {:>9} {:>14} {:>9} {:>8} {:>6} {:>6} {:>6}\n", "views",
+             "noise", "method", "PA mm", "median", "CAM mm", "median", "ms/lift", "failed", "hints",
+             "hinted");
   for (const LiftEvaluation& row : rows)
     fmt::print(
         "{:<6} {:>5.0f}  {:<28} {:>8.1f} ±{:>4.1f} {:>9.1f} {:>8.1f} ±{:>4.1f} {:>9.1f} "
-        "{:>8.1f} {:>6}\n",
+        "{:>8.1f} {:>6} {:>6.2f} {:>6}\n",
         row.views, row.noise_mm, row.method, row.pa_mm, row.pa_standard_error_mm, row.pa_median_mm,
-        row.cam_mm, row.cam_standard_error_mm, row.cam_median_mm, row.ms_per_lift, row.num_failed);
+        row.cam_mm, row.cam_standard_error_mm, row.cam_median_mm, row.ms_per_lift, row.num_failed,
+        row.num_hints, row.num_hinted);
 }
 
 void WriteJson(const std::vector<LiftEvaluation>& rows, const Options& options, int num_atoms) {
@@ -101,7 +105,9 @@ void WriteJson(const std::vector<LiftEvaluation>& rows, const Options& options, 
                             {"cam_mm", row.cam_mm},
                             {"cam_standard_error_mm", row.cam_standard_error_mm},
                             {"cam_median_mm", row.cam_median_mm},
-                            {"ms_per_lift", row.ms_per_lift}});
+                            {"ms_per_lift", row.ms_per_lift},
+                            {"hints", row.num_hints},
+                            {"hinted_poses", row.num_hinted}});
   WriteFileAtomically(options.json, json.dump(1) + "\n");
 }
 
@@ -117,11 +123,16 @@ int EvaluateLifts(const Options& options) {
   TrainReport report;
   const Dictionary dictionary =
       TrainDictionary(train, /*mirrored=*/true, options.train, training.Callback(), &report);
-  const std::vector<LiftMethod> methods = {
+  std::vector<LiftMethod> methods = {
       CodeOnly("paper, one start", dictionary, FindMethod("paper-one-start").lifter),
       CodeOnly("paper, several starts", dictionary, FindMethod("paper").lifter),
       Exemplars(train.poses_m, options.exemplars), CodeOnly("poselift, code alone", dictionary, {}),
       Whole("poselift", dictionary)};
+  for (const int hints : options.hints) {
+    methods.push_back(Whole(
+        fmt::format("poselift, {} hint{}", hints, hints == 1 ? "" : "s at most"), dictionary));
+    methods.back().max_hints = hints;
+  }
   Progress progress("lift");
   const auto rows = EvaluateLift(methods, test.poses_m, options.evaluation, progress.Callback());
   fmt::print("{} atoms; {} poses of {} test frames, seed {}, {}; mean ± standard error\n",
@@ -159,6 +170,12 @@ CLI::App* AddEvaluateLift(CLI::App* app, Run* run) {
       ->capture_default_str();
   command->add_option("--seed", options->evaluation.seed, "Of poses, cameras, noise")
       ->capture_default_str();
+  command
+      ->add_option("--hints", options->hints,
+                   "Rows more, of poses lifted again with so many true hints at most, each of the "
+                   "deepest limb that goes the wrong way (e.g. 1,4)")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
   *run = [options] { return EvaluateLifts(*options); };
   return command;
 }

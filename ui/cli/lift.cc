@@ -138,17 +138,22 @@ int Report(const LiftedLabels& lifted) {
   return usable;
 }
 
-// One line a person: percent longer or shorter than the standard bones.
+// One line a person: percent longer or shorter than the standard bones, and how tall they
+// are where a hint has said it.
 void PrintBodies(const std::vector<PersonBones>& bodies, const Skeleton& standard) {
   const Eigen::VectorXd standard_m = BoneLengths(standard);
   for (const PersonBones& body : bodies) {
     const GroupVector log_ratios = LogRatios(body.lengths_m, standard_m);
-    fmt::print("person {}, bones at the standard stature:", body.id);
+    const double log_stature = LogStature(log_ratios, standard_m), size = std::exp(log_stature);
+    const bool is_standard = std::abs(log_stature) < 1e-6;
+    fmt::print("person {}, {}bones at the standard stature:", body.id,
+               is_standard ? "" : fmt::format("{:.2f} m tall, ", size * Stature_m(standard)));
     for (int j = 1; j < kNumJoints; ++j) {
       const int group = GroupOfJoint(j);
       if (group == GroupOfJoint(j - 1) || Joints()[j].mirror < j) continue;
       fmt::print("{} {} {:+.1f} ± {:.1f}", group > 0 ? "," : "", BoneGroupNames()[group],
-                 100.0 * std::expm1(log_ratios[group]), 100.0 * body.sigmas_m[j] / standard_m[j]);
+                 100.0 * std::expm1(log_ratios[group] - log_stature),
+                 100.0 * body.sigmas_m[j] / (size * standard_m[j]));
     }
     fmt::print(" %\n");
   }

@@ -24,6 +24,7 @@ using testing::ExpectJacobianAgrees;
 using testing::MatrixNear;
 using testing::RandomMatrix;
 using testing::RandomPoseWithinLimits;
+using testing::SomeRelations;
 using testing::TestRng;
 using testing::TrimmedCmuLikeSkeleton;
 
@@ -108,6 +109,30 @@ TEST(PoseCosts, JacobiansEqualDifferences) {
     }
     ExpectJacobiansAgree(*MakeReprojectionCost(body, SomePoints()), blocks);
   }
+}
+
+TEST(PoseCosts, RelationResidualsAreThoseOfTheJoints) {
+  auto rng = TestRng();
+  const Articulation body(TrimmedCmuLikeSkeleton());
+  const std::vector<JointRelation> relations = SomeRelations();
+  Blocks blocks = RandomBlocks(body, &rng);
+  const Eigen::VectorXd residuals = Residuals(*MakeRelationCost(body, relations), blocks);
+  const Pose3 joints_m = JointPositions(body, blocks.pose);
+  int num_held = 0;
+  for (size_t i = 0; i < relations.size(); ++i) {
+    const double expected = relations[i].Residual(joints_m);
+    EXPECT_NEAR(residuals[static_cast<Eigen::Index>(i)], expected, 1e-12);
+    num_held += expected == 0.0;
+  }
+  EXPECT_GT(num_held, 0);
+  EXPECT_LT(num_held, std::ssize(relations));
+}
+
+TEST(PoseCosts, RelationJacobianEqualsDifferencesWhereBoundsHoldAndWhereNot) {
+  auto rng = TestRng();
+  const Articulation body(TrimmedCmuLikeSkeleton());
+  for (int trial = 0; trial < 3; ++trial)
+    ExpectJacobiansAgree(*MakeRelationCost(body, SomeRelations()), RandomBlocks(body, &rng));
 }
 
 TEST(PoseCosts, SpringJacobianEqualsDifferencesInsideAndOutsideTheLimits) {

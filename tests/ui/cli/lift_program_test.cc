@@ -194,5 +194,20 @@ TEST(LiftProgram, LiftsTheOthersWhenOneCannotBeLifted) {
   EXPECT_TRUE(poses.frames[0].people[1].joints_in_cam_m.allFinite());
 }
 
+TEST(LiftProgram, SaysHowTallAHintMakesThemAndWhichHintsAreNotMet) {
+  WriteInputs();
+  WriteScratch("labels.json", Replaced(LabelsOf(kStanding), "\"joints\": {", R"("hints": [
+{"kind": "height", "metres": 1.5},
+{"kind": "nearer", "joint": "left_wrist", "than": "right_wrist", "metres": 1},
+{"kind": "nearer", "joint": "right_wrist", "than": "left_wrist", "metres": 1}], "joints": {)"));
+  const ProgramRun run = RunProgram(kLift);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("person 7, 1.50 m tall, bones at the standard stature: hip +0.0"));
+  const Poses poses = ReadPosesJson(ScratchDir() / "out/poses.json");
+  EXPECT_THAT(poses.frames[0].people[0].message, HasSubstr("wrist nearer than"));
+  ASSERT_EQ(poses.bodies.size(), 1u);
+  EXPECT_EQ(poses.bodies[0].id, 7);
+}
+
 }  // namespace
 }  // namespace poselift

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "ui/label/label_history.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "src/input_error.h"
+#include "src/io/labels_formats.h"
+#include "src/layout.h"
+
+namespace poselift {
+namespace {
+
+void CheckLandmark(const LandmarkLabel& landmark, const Layout& layout) {
+  if (!layout.Find(landmark.name))
+    throw InputError(fmt::format("found the landmark \"{}\", wanted one of the layout {}",
+                                 landmark.name, layout.name));
+  if (!(landmark.x_px.array().abs() <= kLargestCoordinate_px).all())  // NaN is none of them
+    throw InputError(fmt::format("found {} at ({:g}, {:g}) px, wanted it within {:g} px",
+                                 landmark.name, landmark.x_px.x(), landmark.x_px.y(),
+                                 kLargestCoordinate_px));
+  if (const auto radius = landmark.radius_px;
+      radius && !(*radius > 0.0 && *radius <= kLargestCoordinate_px))
+    throw InputError(
+        fmt::format("found the radius {:g} px of {}, wanted one above 0", *radius, landmark.name));
+}
+
+void CheckPeople(const std::vector<PersonLabels>& people, const Layout& layout) {
+  std::set<int> ids;
+  for (const PersonLabels& person : people) {
+    if (!ids.insert(person.id).second)
+      throw InputError(fmt::format("found a second person with the id {}, wanted one", person.id));
+    std::set<std::string_view> names;
+    for (const LandmarkLabel& landmark : person.landmarks) {
+      CheckLandmark(landmark, layout);
+      if (!names.insert(landmark.name).second)
+        throw InputError(fmt::format("found {} of a person twice, wanted it once", landmark.name));
+    }
+    for (size_t i = 0; i < person.hints.size(); ++i)
+      if (const std::string error =
+              WhatIsWrongWith(person.hints[i], std::span(person.hints).first(i), layout);
+          !error.empty())
+        throw InputError(error);
+  }
+}
+
+void CheckFrame(const FrameLabels& frame, const Layout& layout) {
+  const auto within = [](int size_px) { return size_px >= 0 && size_px <= kLargestPicture_px; };
+  if (!within(frame.width_px) || !within(frame.height_px) ||
+      (frame.width_px > 0) != (frame.height_px > 0))
+    throw InputError(fmt::format("found a picture of {} x {} px, wanted a size up to {} or 0 x 0",
+                                 frame.width_px, frame.height_px, kLargestPicture_px));
+  if (frame.time_s && !(std::abs(*frame.time_s) <= kLargestTime_s))
+    throw InputError(fmt::format("found the time {:g} s, wanted one of a video", *frame.time_s));
+  if (frame.frame && *frame.frame < 0)
+    throw InputError(fmt::format("found the frame {}, wanted 0 or more", *frame.frame));
+  CheckPeople(frame.people, layout);
+}
+
+template <typename Map>
+void CheckFrameNumbers(const Map& map, const Labels& labels) {
+  if (!map.empty() && map.rbegin()->first >= labels.frames.size())
+    throw InputError(fmt::format("found the frame {}, wanted one of the {} there are",
+                                 map.rbegin()->first, labels.frames.size()));
+}
+
+template <typename Map>
+bool HaveEqualKeys(const Map& a, const Map& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& x, const auto& y) { return x.first == y.first; });
+}
+
+}  // namespace
+
+void CheckEdit(const Labels& labels, const LabelEdit& edit) {
+  const Layout* const layout = FindLayout(labels.layout);
+  if (!layout) throw InputError(fmt::format("found no layout \"{}\"", labels.layout));
+  CheckFrameNumbers(edit.people, labels);
+  CheckFrameNumbers(edit.images, labels);
+  for (const auto& [frame, people] : edit.people) CheckPeople(people, *layout);
+  for (const FrameLabels& frame : edit.added) CheckFrame(frame, *layout);
+}
+
+void ApplyEdit(const LabelEdit& edit, Labels* labels) {
+  for (const auto& [frame, people] : edit.people) labels->frames[frame].people = people;
+  for (const auto& [frame, image] : edit.images) labels->frames[frame].image = image;
+  labels->frames.insert(labels->frames.end(), edit.added.begin(), edit.added.end());
+}
+
+LabelEdit WayBack(const Labels& labels, const LabelEdit& edit) {
+  LabelEdit before;
+  for (const auto& [frame, people] : edit.people)
+    before.people[frame] = labels.frames[frame].people;
+  for (const auto& [frame, image] : edit.images) before.images[frame] = labels.frames[frame].image;
+  return before;
+}
+
+void RevertStep(const LabelStep& step, Labels* labels) {
+  const size_t added = step.edit.added.size();
+  if (added > labels->frames.size())
+    throw InputError(fmt::format("found {} frames, wanted the {} that were added",
+                                 labels->frames.size(), added));
+  labels->frames.resize(labels->frames.size() - added);
+  CheckEdit(*labels, step.before);
+  ApplyEdit(step.before, labels);
+}
+
+bool LabelSteps::MergesWithLast(const LabelEdit& edit) const {
+  if (sealed_ || edit.merge_key.empty() || applied_ == 0) return false;
+  const LabelEdit& last = all_[applied_ - 1].edit;
+  return last.merge_key == edit.merge_key && last.added.empty() && edit.added.empty() &&
+         HaveEqualKeys(last.people, edit.people) && HaveEqualKeys(last.images, edit.images);
+}
+
+void LabelSteps::Push(LabelEdit edit, LabelEdit before) {
+  all_.resize(applied_);
+  if (MergesWithLast(edit)) {
+    all_.back().edit = std::move(edit);
+    all_.back().state = ++last_state_;
+  } else {
+    all_.push_back({std::move(edit), std::move(before), ++last_state_});
+    ++applied_;
+  }
+  sealed_ = false;
+}
+
+void LabelSteps::Forget(size_t count) {
+  count = std::min(count, applied_);
+  if (count > 0) first_state_ = all_[count - 1].state;
+  all_.erase(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(count));
+  applied_ -= count;
+  sealed_ = true;
+}
+
+bool LabelHistory::Apply(LabelEdit edit) {
+  if (edit.ChangesNothing()) return false;
+  CheckEdit(labels_, edit);
+  LabelEdit before = WayBack(labels_, edit);
+  ApplyEdit(edit, &labels_);
+  steps_.Push(std::move(edit), std::move(before));
+  return true;
+}
+
+bool LabelHistory::Undo() {
+  if (!CanUndo()) return false;
+  RevertStep(*steps_.back(), &labels_);
+  steps_.Back();
+  return true;
+}
+
+bool LabelHistory::Redo() {
+  if (!CanRedo()) return false;
+  ApplyEdit(steps_.forward()->edit, &labels_);
+  steps_.Forward();
+  return true;
+}
+
+}  // namespace poselift
