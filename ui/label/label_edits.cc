@@ -267,13 +267,17 @@ LabelEdit MovePerson(const Labels& labels, PersonRef ref, const Eigen::Vector2d&
 
 LabelEdit RotatePerson(const Labels& labels, PersonRef ref, double angle_rad) {
   const auto turn = AboutCenter(PersonAt(labels, ref), Eigen::Rotation2Dd(angle_rad));
-  return TransformPerson(labels, ref, turn, 1.0, "turn");
+  LabelEdit edit = TransformPerson(labels, ref, turn, 1.0, "turn");
+  edit.merge_key = fmt::format("turn {} in {}", ref.id, ref.frame);
+  return edit;
 }
 
 LabelEdit ScalePerson(const Labels& labels, PersonRef ref, double factor) {
   if (!(factor > 0.0)) throw std::invalid_argument("a person is scaled by a factor above 0");
   const auto scale = AboutCenter(PersonAt(labels, ref), Eigen::UniformScaling<double>(factor));
-  return TransformPerson(labels, ref, scale, factor, "scale");
+  LabelEdit edit = TransformPerson(labels, ref, scale, factor, "scale");
+  edit.merge_key = fmt::format("scale {} in {}", ref.id, ref.frame);
+  return edit;
 }
 
 Eigen::Vector2d PersonCenter(const PersonLabels& person) {

@@ -71,7 +71,8 @@ LabelEdit SwapSides(const Labels& labels, PersonRef ref);
 LabelEdit MirrorFrame(const Labels& labels, size_t frame, int width_px);
 
 // The whole person, absent landmarks too. Turned and scaled about PersonCenter; angles go from x to
-// y, clockwise on the screen. "move person 1", "turn person 1", "scale person 1"
+// y, clockwise on the screen; turns in a row are one step, scalings too. "move person 1",
+// "turn person 1", "scale person 1"
 LabelEdit MovePerson(const Labels& labels, PersonRef ref, const Eigen::Vector2d& step_px);
 LabelEdit RotatePerson(const Labels& labels, PersonRef ref, double angle_rad);
 // factor > 0: radii grow with it.

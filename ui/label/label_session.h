@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "lift/lift_photo.h"
+#include "src/labels.h"
+#include "src/layout.h"
+#include "ui/label/key_map.h"
+#include "ui/label/label_edits.h"
+#include "ui/label/label_project.h"
+#include "ui/label/picture_hit.h"
+#include "ui/label/pose_solver.h"
+
+namespace poselift {
+
+// A person at work on a project: which frame, person and landmark is at hand, what the mouse and
+// the keys do to the labels, and the 3D poses that answer. A window only paints it and forwards
+// events. After each change of the labels of a frame its person is lifted anew, in the background.
+class LabelSession {
+ public:
+  // answered: called in another thread when an answer waits to be taken. project and lifter must
+  // outlive this.
+  LabelSession(LabelProject* project, const PhotoLifter& lifter, std::function<void()> answered);
+
+  const Labels& labels() const { return project_->labels(); }
+  const Layout& layout() const { return *layout_; }
+  size_t frame_index() const { return frame_index_; }
+  size_t person_index() const { return person_index_; }
+  int landmark() const { return landmark_; }  // of the layout: the one that a click places
+  // The frame at hand, with what the mouse drags where it is now.
+  FrameLabels Frame() const;
+  // Null when the person has no label of it.
+  static const LandmarkLabel* Find(const PersonLabels& person, std::string_view landmark);
+
+  // The mouse in the picture. A landmark that is pressed and moved is dragged; a click places the
+  // landmark at hand, where it has no label yet or nothing is near, and goes on to the next one
+  // without a label.
+  void Press(const Eigen::Vector2d& x_px, double reach_px);
+  void PressPerson(const Eigen::Vector2d& x_px);  // drags all of the person at hand
+  void Move(const Eigen::Vector2d& x_px);
+  void Release();
+  void CycleStateAt(const Eigen::Vector2d& x_px, double reach_px);
+
+  // Hints of the person at hand (src/labels.h).
+  std::vector<LabelHint> Hints() const;
+  void GiveHeight(double height_m);
+  void RemoveHintAt(size_t index);
+
+  void GoToFrame(size_t index);
+  void GoToPerson(size_t index);  // one behind the last is a new one
+  void GoToLandmark(int landmark);
+  // What a key does; false for what belongs to the view alone.
+  bool Do(Action action);
+  // The whole person at hand, about its middle; what is done in a row is one step.
+  void TurnPersonBy(double angle_rad);  // clockwise
+  void ScalePersonBy(double factor);
+
+  // Takes the newest answer, if one has come; true when what is shown changed.
+  bool TakeAnswer();
+  // Of the person at hand, the chosen pose; null while there is none.
+  const LiftedPose* pose() const;
+  const LiftResult& result() const { return result_; }
+  const Observation& observation() const { return observation_; }
+  size_t pose_index() const { return pose_index_; }
+  bool is_solving() const { return asked_ != answered_; }
+  void WaitUntilSolved();
+
+  // How far the pose is from a landmark's label; nothing without one of them.
+  std::optional<double> Residual_px(std::string_view landmark) const;
+  std::filesystem::path PicturePath() const;  // of the frame at hand; empty without one
+  // Lifts all frames and leaves in a folder what `lift` does, but pictures. Throws InputError.
+  void Export(const std::filesystem::path& folder) const;
+
+  std::string Title() const;   // of the window: file, picture, whether all is saved
+  std::string Status() const;  // a line for who works: what a click does, what went wrong
+  const LabelProject& project() const { return *project_; }
+
+ private:
+  PersonRef Ref() const;  // the person at hand; a new id for one that is not there yet
+  void Apply(LabelEdit edit);
+  void Ask();
+  void Advance();
+  bool HasPerson() const { return person_index_ < labels().frames[frame_index_].people.size(); }
+  bool HasLabelAtHand() const;
+  bool DoGo(Action action);
+  bool DoOnLandmark(Action action);
+  bool DoOnPerson(Action action);
+  bool DoOnProject(Action action);
+  bool DoHint(Action action);
+  void FlipLimb(const std::string& joint);
+  void KeepPose();
+  void Give(std::vector<LabelHint> hints);
+  size_t NextWhere(bool is_labelled, int step) const;
+
+  LabelProject* project_;
+  const PhotoLifter& lifter_;
+  const Layout* layout_;
+  size_t frame_index_ = 0, person_index_ = 0;
+  int landmark_ = 0;
+  std::optional<int> nearer_;  // the next landmark that is clicked is farther than this one
+  std::string notice_;         // of what was done last, when nothing came of it
+  struct Drag {
+    Eigen::Vector2d pressed_px;
+    double shake_px = 0.0;  // a mouse moves so far in a click
+    size_t person_before = 0;
+    int landmark_before = 0;                            // what was at hand
+    bool is_new = true;                                 // not dragged but placed
+    bool is_person = false;                             // all of them
+    Eigen::Vector2d grab_px = Eigen::Vector2d::Zero();  // from the mouse to the landmark
+    std::optional<LabelEdit> edit = {};                 // what it comes to if it ends here
+  };
+  std::optional<Drag> drag_;
+
+  std::mutex mutex_;
+  std::optional<std::pair<uint64_t, LiftResult>> waiting_;  // guarded by mutex_
+  uint64_t asked_ = 0, answered_ = 0;
+  Observation asked_observation_, observation_;
+  LiftResult result_;
+  size_t pose_index_ = 0;
+  PoseSolver solver_;  // the last member: its thread uses the others
+};
+
+}  // namespace poselift

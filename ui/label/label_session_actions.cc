@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+//
+// What keys and menus do to a session.
+#include <algorithm>
+#include <array>
+
+#include "ui/label/label_edits.h"
+#include "ui/label/label_session.h"
+
+namespace poselift {
+namespace {
+
+constexpr double kNudge_px = 0.1;
+
+bool HasLabels(const FrameLabels& frame) {
+  return std::ranges::any_of(frame.people,
+                             [](const PersonLabels& person) { return !person.landmarks.empty(); });
+}
+
+}  // namespace
+
+size_t LabelSession::NextWhere(bool is_labelled, int step) const {
+  const auto& frames = labels().frames;
+  for (auto i = static_cast<std::ptrdiff_t>(frame_index_) + step; i >= 0 && i < std::ssize(frames);
+       i += step)
+    if (HasLabels(frames[static_cast<size_t>(i)]) == is_labelled) return static_cast<size_t>(i);
+  return frame_index_;
+}
+
+bool LabelSession::Do(Action action) {
+  if (labels().frames.empty()) return false;
+  notice_.clear();
+  nearer_.reset();
+  return DoGo(action) || DoOnLandmark(action) || DoOnPerson(action) || DoHint(action) ||
+         DoOnProject(action);
+}
+
+bool LabelSession::DoGo(Action action) {
+  struct Jump {
+    Action action;
+    std::ptrdiff_t by;
+  };
+  constexpr std::array kJumps = {Jump{Action::kNextFrame, 1},    Jump{Action::kPreviousFrame, -1},
+                                 Jump{Action::kForward10, 10},   Jump{Action::kBack10, -10},
+                                 Jump{Action::kForward100, 100}, Jump{Action::kBack100, -100}};
+  if (const auto* const jump = std::ranges::find(kJumps, action, &Jump::action);
+      jump != kJumps.end()) {
+    const auto to = static_cast<std::ptrdiff_t>(frame_index_) + jump->by;
+    GoToFrame(static_cast<size_t>(std::max<std::ptrdiff_t>(to, 0)));
+    return true;
+  }
+  const int count = static_cast<int>(layout_->landmarks.size());
+  switch (action) {
+    case Action::kFirstFrame:
+      GoToFrame(0);
+      return true;
+    case Action::kLastFrame:
+      GoToFrame(labels().frames.size());
+      return true;
+    case Action::kNextUnlabelled:
+      GoToFrame(NextWhere(false, 1));
+      return true;
+    case Action::kNextLabelled:
+      GoToFrame(NextWhere(true, 1));
+      return true;
+    case Action::kPreviousLabelled:
+      GoToFrame(NextWhere(true, -1));
+      return true;
+    case Action::kNextJoint:
+      GoToLandmark((landmark_ + 1) % count);
+      return true;
+    case Action::kPreviousJoint:
+      GoToLandmark((landmark_ + count - 1) % count);
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool LabelSession::DoOnLandmark(Action action) {
+  struct Nudge {
+    Action action;
+    double x, y;
+  };
+  constexpr std::array kNudges = {Nudge{Action::kNudgeLeft, -1, 0},
+                                  Nudge{Action::kNudgeRight, 1, 0}, Nudge{Action::kNudgeUp, 0, -1},
+                                  Nudge{Action::kNudgeDown, 0, 1}};
+  const std::string_view name = layout_->landmarks[static_cast<size_t>(landmark_)].name;
+  const bool has_label = HasLabelAtHand();
+  if (const auto* const nudge = std::ranges::find(kNudges, action, &Nudge::action);
+      nudge != kNudges.end()) {
+    if (has_label)
+      Apply(NudgeLandmark(labels(), Ref(), name, kNudge_px * Eigen::Vector2d(nudge->x, nudge->y)));
+    return true;
+  }
+  switch (action) {
+    case Action::kCycleState:
+      if (has_label) Apply(CycleLandmarkState(labels(), Ref(), name));
+      return true;
+    case Action::kRemove:
+      if (has_label) Apply(RemoveLandmark(labels(), Ref(), name));
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool LabelSession::DoOnPerson(Action action) {
+  const size_t num_people = labels().frames[frame_index_].people.size();
+  const bool has_person = person_index_ < num_people;
+  switch (action) {
+    case Action::kNextPerson:
+      GoToPerson(num_people == 0 ? 0 : (person_index_ + 1) % num_people);
+      return true;
+    case Action::kNewPerson:
+      GoToPerson(num_people);
+      return true;
+    case Action::kRemovePerson:
+      if (has_person) Apply(RemovePerson(labels(), Ref()));
+      GoToPerson(0);
+      return true;
+    case Action::kSwapSides:
+      if (has_person) Apply(SwapSides(labels(), Ref()));
+      return true;
+    case Action::kCopyPrevious:
+      if (const PersonRef before{frame_index_ - 1, Ref().id};
+          frame_index_ > 0 && FindPerson(labels(), before))
+        Apply(CopyPerson(labels(), before, frame_index_));
+      return true;
+    case Action::kNextPose:
+      if (!result_.poses.empty()) pose_index_ = (pose_index_ + 1) % result_.poses.size();
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool LabelSession::DoOnProject(Action action) {
+  switch (action) {
+    case Action::kSave:
+      project_->Save();
+      return true;
+    case Action::kUndo:
+    case Action::kRedo:
+      drag_.reset();
+      action == Action::kUndo ? project_->Undo() : project_->Redo();
+      person_index_ = std::min(person_index_, labels().frames[frame_index_].people.size());
+      Ask();
+      return true;
+    default:
+      return false;
+  }
+}
+
+void LabelSession::TurnPersonBy(double angle_rad) {
+  if (HasPerson()) Apply(RotatePerson(labels(), Ref(), angle_rad));
+}
+
+void LabelSession::ScalePersonBy(double factor) {
+  if (HasPerson()) Apply(ScalePerson(labels(), Ref(), factor));
+}
+
+}  // namespace poselift
