@@ -13,6 +13,10 @@ install(TARGETS poselift_src poselift_calib poselift_lift poselift_all EXPORT po
 install(TARGETS poselift)
 install(DIRECTORY src calib lift DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/poselift
   FILES_MATCHING PATTERN "*.h" PATTERN "eval" EXCLUDE PATTERN "testing" EXCLUDE)
+if(TARGET poselift-label)
+  install(TARGETS poselift-label)
+  install(FILES samples/photo/kick.jpg DESTINATION ${CMAKE_INSTALL_DATADIR}/poselift/samples)
+endif()
 install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/poselift OPTIONAL
   FILES_MATCHING PATTERN "*.pldict" PATTERN "*.plmotion")
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})

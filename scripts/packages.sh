@@ -12,6 +12,7 @@ build_packages=(
   libapriltag-dev libtomlplusplus-dev libyaml-cpp-dev libcairo2-dev libturbojpeg0-dev
   libavformat-dev pkg-config
   libcli11-dev nlohmann-json3-dev libfmt-dev libspdlog-dev zlib1g-dev libhnswlib-dev
+  qt6-base-dev fonts-dejavu-core
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
 )
 # For the checks of scripts/check.sh.

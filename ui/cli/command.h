@@ -25,6 +25,7 @@ using Run = std::function<int()>;
 CLI::App* AddCalibrate(CLI::App* app, Run* run);
 CLI::App* AddConvert(CLI::App* app, Run* run);
 CLI::App* AddInfo(CLI::App* app, Run* run);
+CLI::App* AddLabel(CLI::App* app, Run* run);
 CLI::App* AddLift(CLI::App* app, Run* run);
 CLI::App* AddPlot(CLI::App* app, Run* run);
 CLI::App* AddSmooth(CLI::App* app, Run* run);

@@ -25,7 +25,7 @@ constexpr std::array kCommands = {
     AddCommand{poselift::cli::AddEvaluate},  AddCommand{poselift::cli::AddSmooth},
     AddCommand{poselift::cli::AddPlot},      AddCommand{poselift::cli::AddDoctor},
     AddCommand{poselift::cli::AddCalibrate}, AddCommand{poselift::cli::AddTrack},
-    AddCommand{poselift::cli::AddTags},
+    AddCommand{poselift::cli::AddTags},      AddCommand{poselift::cli::AddLabel},
 };
 
 // Of words that stand where a command is wanted and are none: the nearest there is.

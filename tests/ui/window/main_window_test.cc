@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+//
+// Real: the sample picture of a kick, its labels, the dictionary that ships, mouse and key events
+// of Qt on its platform without a screen. Checked: a person who clicks the joints gets what the
+// program lifts from the same labels; keys, undo, and what is there after a restart.
+#include "ui/window/main_window.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/mutation.h"
+#include "tests/support/run_program.h"
+#include "tests/ui/window/sample_window.h"
+
+namespace poselift {
+namespace {
+
+using testing::FileText;
+using testing::RunProgram;
+
+using MainWindowTest = testing::SampleWindow;
+
+TEST_F(MainWindowTest, FifteenClicksLiftTheSampleAsTheProgramDoes) {
+  ClickAll();
+  ASSERT_EQ(Landmarks().size(), 15U);
+  for (const LandmarkLabel& label : Landmarks()) {
+    // The mouse has whole pixels of the screen.
+    EXPECT_LT((label.x_px - Label(label.name).x_px).norm(), 0.8 / picture_->view().scale());
+    if (Label(label.name).state == LabelState::kOccluded)
+      QTest::mouseClick(picture_, Qt::RightButton, {}, At(label));
+  }
+  window_->session().WaitUntilSolved();
+  ASSERT_NE(window_->session().pose(), nullptr);
+  EXPECT_LT(window_->session().pose()->reprojection_rms_px, 8.0);
+  QTest::keyClick(window_.get(), Qt::Key_S, Qt::ControlModifier);
+  EXPECT_TRUE(project_->IsSaved());
+  window_->ExportTo(QString::fromStdString((folder_ / "window").string()));
+  const auto run = RunProgram("lift " + (folder_ / "kick.jpg").string() + " --out " +
+                              (folder_ / "program").string());
+  ASSERT_EQ(run.code, 0) << run.err;
+  for (const char* name : {"poses.bvh", "angles.csv", "poses.json"})
+    EXPECT_EQ(FileText(folder_ / "window" / name), FileText(folder_ / "program" / name)) << name;
+}
+
+TEST_F(MainWindowTest, ADragMovesAJointAndUndoTakesItBack) {
+  ClickAll();
+  const Eigen::Vector2d before_px =
+      LabelSession::Find(project_->labels().frames[0].people[0], "left_knee")->x_px;
+  const QPoint from = At(Label("left_knee")), to = from + QPoint(40, -25);
+  QTest::mousePress(picture_, Qt::LeftButton, {}, from);
+  QTest::mouseMove(picture_, to);
+  QTest::mouseRelease(picture_, Qt::LeftButton, {}, to);
+  const auto knee_px = [&] {
+    return LabelSession::Find(project_->labels().frames[0].people[0], "left_knee")->x_px;
+  };
+  const Eigen::Vector2d by_px = Eigen::Vector2d(40, -25) / picture_->view().scale();
+  EXPECT_LT((knee_px() - before_px - by_px).norm(), 1.0 / picture_->view().scale());
+  QTest::keyClick(window_.get(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(knee_px(), before_px);
+  QTest::keyClick(window_.get(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_NE(knee_px(), before_px);
+}
+
+TEST_F(MainWindowTest, WhatWasClickedIsThereAfterARestartAndCanBeUndone) {
+  QTest::mouseClick(picture_, Qt::LeftButton, {}, At(Label("pelvis")));
+  QTest::mouseClick(picture_, Qt::LeftButton, {}, At(Label("neck")));
+  Open();
+  ASSERT_EQ(Landmarks().size(), 2U);
+  EXPECT_EQ(window_->session().landmark(), *FindLayout("body15")->Find("head_top"));
+  QTest::keyClick(window_.get(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(Landmarks().size(), 1U);
+}
+
+TEST_F(MainWindowTest, TheWheelKeepsThePointUnderTheCursor) {
+  const QPoint cursor(300, 200);
+  const Eigen::Vector2d before_px = picture_->view().ToPicture({300.0, 200.0});
+  const double scale = picture_->view().scale();
+  QWheelEvent wheel(cursor, picture_->mapToGlobal(cursor), {}, {0, 240}, Qt::NoButton, {},
+                    Qt::NoScrollPhase, false);
+  QCoreApplication::sendEvent(picture_, &wheel);
+  EXPECT_GT(picture_->view().scale(), 1.2 * scale);
+  EXPECT_TRUE(testing::MatrixNear(picture_->view().ToPicture({300.0, 200.0}), before_px, 1e-9));
+}
+
+TEST_F(MainWindowTest, EveryWidgetThatTakesTheFocusHasANameForReaders) {
+  for (const QWidget* widget : window_->findChildren<QWidget*>()) {
+    if (!widget->isVisibleTo(window_.get()) || !(widget->focusPolicy() & Qt::TabFocus)) continue;
+    EXPECT_FALSE(widget->objectName().isEmpty()) << widget->metaObject()->className();
+    EXPECT_FALSE(widget->accessibleName().isEmpty()) << widget->objectName().toStdString();
+  }
+}
+
+TEST_F(MainWindowTest, AFlippedLegIsAHintThatADoubleClickForgets) {
+  ClickAll();
+  window_->session().WaitUntilSolved();
+  auto* const joints = window_->findChild<QListWidget*>("joints");
+  auto* const hints = window_->findChild<QListWidget*>("hints");
+  joints->setCurrentRow(*FindLayout("body15")->Find("right_knee"));
+  window_->findChild<QAction*>("flip_limb")->trigger();
+  window_->session().WaitUntilSolved();
+  window_->Refresh();
+  ASSERT_GT(hints->count(), 0);
+  EXPECT_FALSE(project_->labels().frames[0].people[0].hints.empty());
+  while (hints->count() > 0) {
+    const QPoint at = hints->visualItemRect(hints->item(0)).center();
+    QTest::mouseClick(hints->viewport(), Qt::LeftButton, {}, at);
+    QTest::mouseDClick(hints->viewport(), Qt::LeftButton, {}, at);
+  }
+  EXPECT_TRUE(project_->labels().frames[0].people[0].hints.empty());
+}
+
+TEST_F(MainWindowTest, ThePoseTurnsByTheMouse) {
+  ClickAll();
+  window_->session().WaitUntilSolved();
+  auto* const pose = window_->findChild<PoseCanvas*>("pose");
+  const double yaw_rad = pose->orbit().yaw_rad;
+  QTest::mousePress(pose, Qt::LeftButton, {}, {50, 50});
+  QTest::mouseMove(pose, {90, 50});
+  QTest::mouseRelease(pose, Qt::LeftButton, {}, {90, 50});
+  EXPECT_NE(pose->orbit().yaw_rad, yaw_rad);
+  EXPECT_FALSE(pose->grab().toImage().isNull());
+}
+
+}  // namespace
+}  // namespace poselift

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <QAction>
+#include <QListWidget>
+#include <QSlider>
+#include <QTest>
+#include <filesystem>
+#include <memory>
+
+#include "lift/default_dictionary.h"
+#include "lift/dictionary_file.h"
+#include "src/io/labels.h"
+#include "tests/support/support.h"
+#include "ui/label/label_inputs.h"
+#include "ui/window/main_window.h"
+#include "ui/window/picture_canvas.h"
+#include "ui/window/pose_canvas.h"
+
+namespace poselift::testing {
+
+namespace fs = std::filesystem;
+
+// A window on the sample picture of a kick, without labels, and the labels it is to get.
+class SampleWindow : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = ScratchDir();
+    const fs::path samples = SourcePath("samples/photo");
+    fs::copy_file(samples / "kick.jpg", folder_ / "kick.jpg", fs::copy_options::overwrite_existing);
+    for (const char* left : {"kick.labels.json", ".kick.labels.json.journal"})
+      fs::remove(folder_ / left);
+    person_ = ReadLabels(samples / "kick.labels.json").frames[0].people[0];
+    Open();
+  }
+
+  void Open() {
+    window_.reset();
+    project_.reset();
+    file_ = FindLabelsFile({(folder_ / "kick.jpg").string()}, "", "body15");
+    project_ = std::make_unique<LabelProject>(file_);
+    window_ = std::make_unique<MainWindow>(project_.get(), lifter_, KeyMap());
+    window_->show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+    picture_ = window_->findChild<PictureCanvas*>("picture");
+  }
+
+  QPoint At(const LandmarkLabel& label) const {
+    const Eigen::Vector2d x = picture_->view().ToWidget(label.x_px);
+    return QPointF(x.x(), x.y()).toPoint();
+  }
+  const LandmarkLabel& Label(std::string_view name) const {
+    return *LabelSession::Find(person_, name);
+  }
+  // In the layout's order, as the window asks for them.
+  void ClickAll() {
+    for (const Landmark& landmark : FindLayout("body15")->landmarks)
+      QTest::mouseClick(picture_, Qt::LeftButton, {}, At(Label(landmark.name)));
+  }
+  const std::vector<LandmarkLabel>& Landmarks() const {
+    return project_->labels().frames[0].people.at(0).landmarks;
+  }
+
+  Dictionary dictionary_ = ReadDictionary(DefaultDictionaryPath());
+  PhotoLifter lifter_{dictionary_};
+  PersonLabels person_;
+  fs::path folder_, file_;
+  std::unique_ptr<LabelProject> project_;
+  std::unique_ptr<MainWindow> window_;
+  PictureCanvas* picture_ = nullptr;
+};
+
+}  // namespace poselift::testing

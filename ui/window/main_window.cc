@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "ui/window/main_window.h"
+
+#include <QAction>
+#include <QCloseEvent>
+#include <QCoreApplication>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QInputDialog>
+#include <QLabel>
+#include <QListWidget>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QProcess>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QSplitter>
+#include <QStatusBar>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+
+#include "ui/window/picture_canvas.h"
+#include "ui/window/picture_loader.h"
+#include "ui/window/pose_canvas.h"
+#include "ui/window/welcome.h"
+
+namespace poselift {
+namespace {
+
+constexpr double kZoomStep = 1.25;
+
+QString TextOf(std::string_view text) {
+  return QString::fromUtf8(text.data(), static_cast<int>(text.size()));
+}
+
+}  // namespace
+
+MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const KeyMap& keys)
+    : lifter_(lifter), keys_(keys), session_(project, lifter, [this] {
+        QMetaObject::invokeMethod(
+            this,
+            [this] {
+              if (session_.TakeAnswer()) Refresh();
+            },
+            Qt::QueuedConnection);
+      }) {
+  setObjectName("window");
+  auto* const middle = new QSplitter(this);
+  middle->setObjectName("views");
+  picture_ = new PictureCanvas(&session_, middle);
+  pose_ = new PoseCanvas(&session_, middle);
+  middle->setStretchFactor(0, 3);
+  middle->setStretchFactor(1, 2);
+  middle->setSizes({600, 400});
+  setCentralWidget(middle);
+  AddJoints();
+  AddFrames();
+  AddHints();
+  AddLook();
+  status_ = new QLabel(this);
+  status_->setObjectName("status");
+  cursor_ = new QLabel(this);
+  cursor_->setObjectName("cursor");
+  statusBar()->addWidget(status_, 1);
+  statusBar()->addPermanentWidget(cursor_);
+  AddMenus();
+  connect(picture_, &PictureCanvas::Changed, this, &MainWindow::Refresh);
+  connect(picture_, &PictureCanvas::CursorAt, this, [this](double x_px, double y_px) {
+    cursor_->setText(QString("%1, %2").arg(x_px, 0, 'f', 1).arg(y_px, 0, 'f', 1));
+  });
+  resize(1280, 800);
+  picture_->setFocus();
+  Refresh();
+}
+
+QAction* MainWindow::Add(QMenu* menu, Action action) {
+  const ActionInfo& info = InfoOf(action);
+  auto* const item = menu->addAction(tr(info.description.data()));
+  item->setObjectName(TextOf(info.name));
+  QList<QKeySequence> keys;
+  for (const std::string& key : keys_.Keys(action))
+    keys << QKeySequence(QString::fromStdString(key));
+  item->setShortcuts(keys);
+  item->setToolTip(
+      QString("%1 (%2)").arg(item->text(), QString::fromStdString(keys_.Text(action))));
+  connect(item, &QAction::triggered, this, [this, action] { Do(action); });
+  actions_[action] = item;
+  return item;
+}
+
+void MainWindow::AddMenus() {
+  auto* const file = menuBar()->addMenu(tr("&File"));
+  file->addAction(tr("&Open..."), QKeySequence(QKeySequence::Open), this, &MainWindow::Open)
+      ->setObjectName("open");
+  Add(file, Action::kSave);
+  file->addAction(tr("&Export..."), this, &MainWindow::AskExport)->setObjectName("export");
+  file->addAction(tr("Save s&creenshot..."), this, &MainWindow::SaveScreenshot)
+      ->setObjectName("screenshot");
+  file->addSeparator();
+  file->addAction(tr("&Quit"), QKeySequence(QKeySequence::Quit), this, &QWidget::close)
+      ->setObjectName("quit");
+  struct Menu {
+    QString title;
+    std::vector<Action> actions;
+  };
+  using enum Action;
+  const std::vector<Menu> menus = {
+      {tr("&Edit"),
+       {kUndo, kRedo, kCycleState, kRemove, kCopyPrevious, kNudgeLeft, kNudgeRight, kNudgeUp,
+        kNudgeDown}},
+      {tr("Pe&rson"), {kNextPerson, kNewPerson, kRemovePerson, kSwapSides}},
+      {tr("&Go"),
+       {kNextJoint, kPreviousJoint, kNextFrame, kPreviousFrame, kForward10, kBack10, kForward100,
+        kBack100, kFirstFrame, kLastFrame, kNextUnlabelled, kNextLabelled, kPreviousLabelled}},
+      {tr("&Pose"),
+       {kNextPose, kKeepPose, kFlipLimb, kTowardsCamera, kAwayFromCamera, kNearer, kOnFloor,
+        kForgetHints}},
+      {tr("&View"),
+       {kZoomIn, kZoomOut, kFit, kFullSize, kToggleLoupe, kToggleLabels, kToggleEdges,
+        kToggleSkeleton}},
+      {tr("&Help"), {kHelp}}};
+  for (const Menu& menu : menus) {
+    auto* const items = menuBar()->addMenu(menu.title);
+    for (const Action action : menu.actions) Add(items, action);
+    if (menu.actions.front() == kNextPose)
+      items->addAction(tr("Height of the person..."), this, &MainWindow::AskHeight)
+          ->setObjectName("height");
+    if (menu.actions.front() == kZoomIn)
+      for (QDockWidget* dock : docks_) items->addAction(dock->toggleViewAction());
+  }
+}
+
+void MainWindow::Do(Action action) {
+  switch (action) {
+    case Action::kZoomIn:
+      return picture_->Zoom(kZoomStep);
+    case Action::kZoomOut:
+      return picture_->Zoom(1.0 / kZoomStep);
+    case Action::kFit:
+      return picture_->Fit();
+    case Action::kFullSize:
+      return picture_->FullSize();
+    case Action::kToggleLoupe:
+      picture_->shows_loupe = !picture_->shows_loupe;
+      break;
+    case Action::kToggleLabels:
+      picture_->shows_labels = !picture_->shows_labels;
+      break;
+    case Action::kToggleEdges:
+      picture_->shows_edges = !picture_->shows_edges;
+      break;
+    case Action::kToggleSkeleton:
+      picture_->shows_skeleton = !picture_->shows_skeleton;
+      break;
+    case Action::kHelp:
+      return ShowKeys();
+    default:
+      session_.Do(action);
+  }
+  Refresh();
+}
+
+void MainWindow::ShowKeys() {
+  QString text = "<table>";
+  for (const ActionInfo& info : Actions())
+    text += QString("<tr><td><b>%1</b>&nbsp;&nbsp;</td><td>%2</td></tr>")
+                .arg(QString::fromStdString(keys_.Text(info.action)).toHtmlEscaped(),
+                     tr(info.description.data()));
+  text += "</table>" + tr("<p>Left button: place the joint at hand, or drag any. Right button: "
+                          "visible, occluded, absent. Middle button, or space and left: pan. "
+                          "Wheel: zoom.");
+  auto* const box = new QMessageBox(QMessageBox::NoIcon, tr("Keys"), text, QMessageBox::Ok, this);
+  box->setObjectName("keys");
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->open();
+}
+
+// In a window of its own: what is at work here stays.
+void MainWindow::Open() {
+  QStringList arguments;
+  for (const std::string& input : Welcome::AskForPictures(this))
+    arguments << QString::fromStdString(input);
+  if (!arguments.isEmpty())
+    QProcess::startDetached(QCoreApplication::applicationFilePath(), arguments);
+}
+
+void MainWindow::AskHeight() {
+  bool is_given = false;
+  const double height_cm = QInputDialog::getDouble(this, tr("Height of the person"),
+                                                   tr("From the soles to the crown, cm"), 175.0,
+                                                   30.0, 250.0, 1, &is_given);
+  if (is_given) session_.GiveHeight(height_cm / 100.0);
+  Refresh();
+}
+
+void MainWindow::AskExport() {
+  const QString folder = QFileDialog::getExistingDirectory(this, tr("Export to a folder"));
+  if (!folder.isEmpty()) ExportTo(folder);
+}
+
+void MainWindow::ExportTo(const QString& folder) {
+  try {
+    session_.Export(folder.toStdString());
+    statusBar()->showMessage(tr("exported to %1").arg(folder), 5000);
+  } catch (const std::exception& error) {
+    QMessageBox::warning(this, tr("Not exported"), error.what());
+  }
+}
+
+void MainWindow::SaveScreenshot() {
+  const QPixmap picture = grab();
+  const QString file =
+      QFileDialog::getSaveFileName(this, tr("Save screenshot"), "poselift.png", tr("PNG (*.png)"));
+  if (!file.isEmpty() && !picture.save(file, "PNG"))
+    QMessageBox::warning(this, tr("Not saved"), tr("%1 cannot be written").arg(file));
+}
+
+void MainWindow::Refresh() {
+  ShowPicture();
+  ShowJoints();
+  ShowHints();
+  setWindowTitle(QString::fromStdString(session_.Title()));
+  status_->setText(QString::fromStdString(session_.Status()));
+  if (actions_.count(Action::kUndo) != 0) {
+    const LabelHistory& history = session_.project().history();
+    actions_[Action::kUndo]->setText(tr("Undo %1").arg(TextOf(history.UndoName())));
+    actions_[Action::kRedo]->setText(tr("Redo %1").arg(TextOf(history.RedoName())));
+    actions_[Action::kUndo]->setEnabled(history.CanUndo());
+    actions_[Action::kRedo]->setEnabled(history.CanRedo());
+  }
+  picture_->update();
+  pose_->update();
+}
+
+void MainWindow::ShowPicture() {
+  const QSignalBlocker blocker(frames_);
+  frames_->setRange(0, static_cast<int>(session_.labels().frames.size()) - 1);
+  frames_->setValue(static_cast<int>(session_.frame_index()));
+  if (shown_frame_ == session_.frame_index()) return;
+  shown_frame_ = session_.frame_index();
+  try {
+    picture_->SetPicture(LoadPicture(session_.PicturePath()));
+  } catch (const std::exception& error) {
+    picture_->SetPicture({});
+    statusBar()->showMessage(error.what());
+  }
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  session_.Do(Action::kSave);
+  event->accept();
+}
+
+}  // namespace poselift

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <QMainWindow>
+#include <map>
+#include <vector>
+
+#include "ui/label/key_map.h"
+#include "ui/label/label_session.h"
+
+class QAction;
+class QDockWidget;
+class QLabel;
+class QListWidget;
+class QSlider;
+
+namespace poselift {
+
+class PictureCanvas;
+class PoseCanvas;
+
+// The labelling window: the picture, the pose that answers, the list of joints, the frames. It
+// holds no labels: it paints a LabelSession and forwards to it.
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+
+ public:
+  // project and lifter must outlive the window.
+  MainWindow(LabelProject* project, const PhotoLifter& lifter, const KeyMap& keys);
+
+  LabelSession& session() { return session_; }
+  // All of the results of `lift` in a folder; says what went wrong, if anything did.
+  void ExportTo(const QString& folder);
+
+ public slots:
+  void Refresh();
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  void AddMenus();
+  void AddJoints();
+  void AddFrames();
+  void AddHints();
+  void AddLook();
+  QAction* Add(class QMenu* menu, Action action);
+  void Do(Action action);
+  void ShowKeys();
+  void Open();
+  void AskExport();
+  void SaveScreenshot();
+  void ShowPicture();
+  void ShowJoints();
+  void ShowHints();
+  void AskHeight();
+
+  const PhotoLifter& lifter_;
+  KeyMap keys_;
+  std::map<Action, QAction*> actions_;
+  PictureCanvas* picture_ = nullptr;
+  PoseCanvas* pose_ = nullptr;
+  QListWidget *joints_ = nullptr, *hints_ = nullptr;
+  QSlider* frames_ = nullptr;
+  std::vector<QDockWidget*> docks_;  // that may be hidden
+  QLabel* status_ = nullptr;
+  QLabel* cursor_ = nullptr;
+  std::optional<size_t> shown_frame_;
+  LabelSession session_;
+};
+
+}  // namespace poselift
