@@ -13,7 +13,7 @@ check() { # check NAME COMMAND...
 
 check format scripts/format.sh --check
 check spelling codespell
-check shell shellcheck demo.sh test.sh .ci/run scripts/*.sh tests/v4l2_vm/*.sh
+check shell shellcheck demo.sh test.sh .ci/run scripts/*.sh tests/v4l2_vm/*.sh tests/ui/window/*.sh
 
 if ((${#failed[@]})); then
   echo "checks failed: ${failed[*]} (scripts/format.sh formats)" >&2

@@ -19,11 +19,12 @@ build_packages=(
 # shellcheck disable=SC2034
 check_packages=(clang-format-14 codespell shellcheck)
 # Without them some tests are skipped: Blender (393 MB) reads our files back; a virtual machine
-# has cameras for capture, fed by ffmpeg.
+# has cameras for capture, fed by ffmpeg; a screen in memory shows the window.
 # shellcheck disable=SC2034
 optional_test_packages=(
   blender poppler-utils
   qemu-system-x86 busybox-static cpio kmod make v4l-utils ffmpeg
+  xvfb xdotool
 )
 
 say() { printf '\n==> %s\n' "$*"; }
