@@ -115,15 +115,24 @@ LiftResult PhotoLifter::LiftAtSkeletonSize(const Observation& observation) const
   const bool in_perspective =
       observation.pinhole && observation.Count(ObservedPoint::Kind::k2D) > 0;
   const std::vector<LiftSolution> solutions = lifter_.Solve(observation);  // (P1)
-  for (const LiftSolution& solution : solutions) {
-    if (static_cast<int>(result.poses.size()) == options_.max_solutions) break;
+  const auto finish = [&](const LiftSolution& solution) {
     std::optional<LiftedPose> lifted =
         in_perspective ? FinishInPerspective(solution, observation) : Finish(solution, observation);
-    if (!lifted) continue;
+    if (!lifted) return lifted;
     MeasureErrors(observation, &*lifted);
     lifted->cost = Cost(*lifted, observation);
     lifted->unmet_hints = UnmetHints(observation.relations, lifted->joints_in_cam_m);
-    result.poses.push_back(std::move(*lifted));
+    return lifted;
+  };
+  const auto wanted = static_cast<size_t>(options_.max_solutions);
+  for (size_t first = 0; first < solutions.size() && result.poses.size() < wanted;) {
+    std::vector<std::optional<LiftedPose>> finished(
+        std::min(wanted - result.poses.size(), solutions.size() - first));
+#pragma omp parallel for schedule(dynamic)
+    for (size_t i = 0; i < finished.size(); ++i) finished[i] = finish(solutions[first + i]);
+    first += finished.size();
+    for (auto& lifted : finished)
+      if (lifted) result.poses.push_back(std::move(*lifted));
   }
   std::stable_sort(result.poses.begin(), result.poses.end(),
                    [](const LiftedPose& a, const LiftedPose& b) { return a.cost < b.cost; });

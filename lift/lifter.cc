@@ -46,6 +46,19 @@ std::vector<LiftSolution> Distinct(std::vector<LiftSolution> sorted, double dist
   return distinct;
 }
 
+// The first so many, each thread with storage of its own; within a loop that is parallel already
+// one after the other.
+void RunEach(const Alternation& alternation, int alternations, std::vector<LiftSolution>* solutions,
+             int count) {
+  count = std::min(count, static_cast<int>(solutions->size()));
+#pragma omp parallel
+  {
+    Alternation mine(alternation);
+#pragma omp for schedule(dynamic)
+    for (int i = 0; i < count; ++i) mine.Run(alternations, &(*solutions)[i]);
+  }
+}
+
 std::vector<LiftSolution> AtStarts(const std::vector<ViewStart>& starts,
                                    const Dictionary& dictionary, bool has_2d) {
   std::vector<LiftSolution> solutions;
@@ -122,10 +135,9 @@ std::vector<LiftSolution> Lifter::Solve(const Observation& observation) const {
       SearchViews(alternation.op(), alternation.centred_atoms(), options_.rotation, options_.views);
   auto solutions = AtStarts(starts, dictionary_, alternation.op().Has2D());
   const int trial = std::min(options_.trial_alternations, options_.max_alternations);
-  for (LiftSolution& solution : solutions) alternation.Run(trial, &solution);
+  RunEach(alternation, trial, &solutions, static_cast<int>(solutions.size()));
   SortByObjective(&solutions);
-  for (int i = 0; i < options_.num_finishing && i < static_cast<int>(solutions.size()); ++i)
-    alternation.Run(options_.max_alternations - trial, &solutions[i]);
+  RunEach(alternation, options_.max_alternations - trial, &solutions, options_.num_finishing);
   SortByObjective(&solutions);
   if (!observation.relations.empty()) AddMirrored(observation, &alternation, &solutions);
   return Distinct(std::move(solutions), options_.distinct_m);

@@ -72,6 +72,8 @@ BENCHMARK(LiftPhotoBench)
     ->Name("lift_photo")
     ->ArgName("random")
     ->Arg(1024)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 
 // The whole lift of one person, joint angles and alternatives included, with the
@@ -88,7 +90,11 @@ void LiftPhotoDefaultBench(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(LiftPhotoDefaultBench)->Name("lift_photo/default")->Unit(benchmark::kMillisecond);
+BENCHMARK(LiftPhotoDefaultBench)
+    ->Name("lift_photo/default")
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
 // OMP over the rows that are left of 69 with 30 % of the joints hidden, the same
 // joints in every pose.
