@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "calib/tag_family.h"
+#include "src/input_error.h"
 #include "src/io/atomic_file.h"
 #include "src/io/yaml_value.h"
 
@@ -16,6 +17,10 @@ namespace poselift {
 AprilGrid ReadAprilGridYaml(const std::filesystem::path& path) {
   const YamlDocument document(path);
   const YamlValue root = document.root();
+  if (!root.Find("target_type"))
+    throw InputError(path,
+                     "found no target_type, wanted a target file of Kalibr, as `poselift tags "
+                     "print --set board` writes one");
   const YamlValue type = root.At("target_type");
   if (type.String() != "aprilgrid")
     throw type.Unwanted(

@@ -311,7 +311,8 @@ std::string WantedPerhaps(std::string_view name, const std::vector<std::string>&
 }
 
 BodyTags ReadBodyTagsToml(const std::filesystem::path& path) {
-  const toml::table root = ReadToml(path);
+  const toml::table root =
+      ReadToml(path, "a tags file, as `poselift tags print --set body` writes one");
   const Table file(root, path.string());
   file.CheckKeys({"family", "size_mm", "tag", "bone_lengths_mm"});
   BodyTags tags;

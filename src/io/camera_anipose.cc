@@ -95,7 +95,7 @@ Camera CameraOf(const Table& table) {
 }  // namespace
 
 CameraList ReadAniposeCameras(const std::filesystem::path& path, const std::string& wanted) {
-  const toml::table root = ReadToml(path);
+  const toml::table root = ReadToml(path, "a calibration of anipose");
   // toml++ sorts its keys; the file's order is that of the lines.
   std::vector<Table> tables;
   for (const auto& [key, node] : root) {
@@ -106,7 +106,9 @@ CameraList ReadAniposeCameras(const std::filesystem::path& path, const std::stri
         {path, *values, name ? name->value_or(std::string(key.str())) : std::string(key.str())});
   }
   if (tables.empty())
-    throw InputError(path, "found no table with a matrix, wanted a calibration of anipose");
+    throw InputError(path,
+                     "found no table with a matrix, wanted a calibration of anipose; `poselift "
+                     "calibrate` makes camera files");
   std::vector<size_t> order(tables.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {

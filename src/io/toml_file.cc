@@ -34,14 +34,14 @@ void CheckDots(const std::filesystem::path& path, std::string_view text) {
 
 }  // namespace
 
-toml::table ReadToml(const std::filesystem::path& path) {
+toml::table ReadToml(const std::filesystem::path& path, std::string_view wanted) {
   const std::string text = ReadTextFile(path);
   CheckDots(path, text);
   try {
     return toml::parse(text, path.string());
   } catch (const toml::parse_error& error) {
     throw InputError(path, static_cast<int>(error.source().begin.line),
-                     fmt::format("found no TOML: {}", error.description()));
+                     fmt::format("found no TOML ({}), wanted {}", error.description(), wanted));
   }
 }
 

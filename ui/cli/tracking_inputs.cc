@@ -29,10 +29,8 @@
 namespace poselift::cli {
 
 void AddTrackingInputs(CLI::App* command, TrackingInputs* inputs) {
-  command
-      ->add_option("INPUT,--device", inputs->input,
-                   "A camera (/dev/video0, or 0), a video, or a folder of pictures")
-      ->required();
+  command->add_option("INPUT,--device", inputs->input,
+                      "A camera (/dev/video0, or 0), a video, or a folder of pictures");
   command->add_option(
       "--camera", inputs->camera,
       "Calibrated camera (see poselift calibrate), FILE#NAME in a file of several; without "
@@ -62,7 +60,8 @@ void AddTrackingInputs(CLI::App* command, TrackingInputs* inputs) {
   command->add_option("--dictionary", inputs->dictionary, "Default: the one that ships");
   command->add_option("--motion-model", inputs->motion_model, "Default: the one that ships");
   command->parse_complete_callback([command, inputs] {
-    if (inputs->input.empty()) return;
+    if (inputs->input.empty())
+      throw CLI::RequiredError("INPUT (a camera, /dev/video0, a video, or a folder of pictures)");
     SourceKind kind = SourceKind::kCamera;
     try {
       kind = KindOfSource(inputs->input);

@@ -99,7 +99,7 @@ KeyMap::KeyMap() {
 }
 
 KeyMap KeyMap::Read(const std::filesystem::path& path) {
-  const toml::table table = ReadToml(path);
+  const toml::table table = ReadToml(path, "a file of keys: save = \"Ctrl+S\"");
   KeyMap map;
   for (const auto& [name, node] : table) {
     const auto info = std::ranges::find(kActions, name.str(), &ActionInfo::name);
