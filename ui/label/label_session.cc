@@ -183,7 +183,11 @@ void LabelSession::Advance() {
 }
 
 void LabelSession::Apply(LabelEdit edit) {
-  if (project_->Apply(std::move(edit))) Ask();
+  try {
+    if (project_->Apply(std::move(edit))) Ask();
+  } catch (const InputError& error) {  // of what labels cannot hold, or of others who hold them
+    notice_ = error.what();
+  }
 }
 
 void LabelSession::Ask() {

@@ -57,8 +57,8 @@ class LabelSession {
   void RemoveHintAt(size_t index);
 
   void GoToFrame(size_t index);
-  void GoToPerson(size_t index);  // one behind the last is a new one
-  void GoToLandmark(int landmark);
+  void GoToPerson(size_t index);    // one behind the last is a new one
+  void GoToLandmark(int landmark);  // the nearest there is
   // What a key does; false for what belongs to the view alone.
   bool Do(Action action);
   // The whole person at hand, about its middle; what is done in a row is one step.
@@ -78,6 +78,8 @@ class LabelSession {
   // How far the pose is from a landmark's label; nothing without one of them.
   std::optional<double> Residual_px(std::string_view landmark) const;
   std::filesystem::path PicturePath() const;  // of the frame at hand; empty without one
+  // Points to pictures that moved there; returns how many. Throws InputError as LabelProject.
+  size_t Relink(const std::filesystem::path& folder) { return project_->Relink(folder); }
   // Lifts all frames and leaves in a folder what `lift` does, but pictures. Throws InputError.
   void Export(const std::filesystem::path& folder) const;
 

@@ -6,7 +6,6 @@
 #include <array>
 
 #include "lift/depth_mirror.h"
-#include "src/input_error.h"
 #include "ui/label/label_edits.h"
 #include "ui/label/label_session.h"
 
@@ -86,14 +85,8 @@ std::vector<LabelHint> LabelSession::Hints() const {
   return labels().frames[frame_index_].people[person_index_].hints;
 }
 
-// What labels cannot hold is said, and nothing changed.
 void LabelSession::Give(std::vector<LabelHint> hints) {
-  if (hints.empty() || !HasPerson()) return;
-  try {
-    Apply(GiveHints(labels(), Ref(), hints));
-  } catch (const InputError& error) {
-    notice_ = error.what();
-  }
+  if (!hints.empty() && HasPerson()) Apply(GiveHints(labels(), Ref(), hints));
 }
 
 }  // namespace poselift

@@ -74,6 +74,11 @@ MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const K
   resize(1280, 800);
   picture_->setFocus();
   Refresh();
+  constexpr int kLong_ms = 15000;
+  QStringList messages;
+  for (const std::string& message : project->messages())
+    messages << QString::fromStdString(message);
+  if (!messages.isEmpty()) statusBar()->showMessage(messages.join("; "), kLong_ms);
 }
 
 QAction* MainWindow::Add(QMenu* menu, Action action) {
@@ -96,6 +101,8 @@ void MainWindow::AddMenus() {
   file->addAction(tr("&Open..."), QKeySequence(QKeySequence::Open), this, &MainWindow::Open)
       ->setObjectName("open");
   Add(file, Action::kSave);
+  file->addAction(tr("&Find moved pictures..."), this, &MainWindow::FindPictures)
+      ->setObjectName("find_pictures");
   file->addAction(tr("&Export..."), this, &MainWindow::AskExport)->setObjectName("export");
   file->addAction(tr("Save s&creenshot..."), this, &MainWindow::SaveScreenshot)
       ->setObjectName("screenshot");
@@ -158,8 +165,40 @@ void MainWindow::Do(Action action) {
     case Action::kHelp:
       return ShowKeys();
     default:
-      session_.Do(action);
+      Try([&] { session_.Do(action); });
   }
+  Refresh();
+}
+
+// What cannot be done is said; all that was done before stays.
+bool MainWindow::Try(const std::function<void()>& act) {
+  try {
+    act();
+    return true;
+  } catch (const std::exception& error) {
+    Tell(QString::fromStdString(error.what()));
+    return false;
+  }
+}
+
+void MainWindow::Tell(const QString& text) {
+  auto* const box =
+      new QMessageBox(QMessageBox::Warning, tr("poselift"), text, QMessageBox::Ok, this);
+  box->setObjectName("message");
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->open();
+}
+
+void MainWindow::FindPictures() {
+  const QString folder = QFileDialog::getExistingDirectory(this, tr("Where are the pictures?"));
+  if (!folder.isEmpty()) FindPicturesIn(folder);
+}
+
+void MainWindow::FindPicturesIn(const QString& folder) {
+  size_t count = 0;
+  if (Try([&] { count = session_.Relink(folder.toStdString()); }))
+    statusBar()->showMessage(tr("%n picture(s) found", "", static_cast<int>(count)), 5000);
+  shown_frame_.reset();
   Refresh();
 }
 
@@ -202,12 +241,8 @@ void MainWindow::AskExport() {
 }
 
 void MainWindow::ExportTo(const QString& folder) {
-  try {
-    session_.Export(folder.toStdString());
+  if (Try([&] { session_.Export(folder.toStdString()); }))
     statusBar()->showMessage(tr("exported to %1").arg(folder), 5000);
-  } catch (const std::exception& error) {
-    QMessageBox::warning(this, tr("Not exported"), error.what());
-  }
 }
 
 void MainWindow::SaveScreenshot() {
@@ -245,12 +280,20 @@ void MainWindow::ShowPicture() {
     picture_->SetPicture(LoadPicture(session_.PicturePath()));
   } catch (const std::exception& error) {
     picture_->SetPicture({});
-    statusBar()->showMessage(error.what());
+    statusBar()->showMessage(error.what() + tr("; File, Find moved pictures says where it is now"));
   }
 }
 
+// Where saving fails nothing is lost but by will: the steps are in the journal, or said not to be.
 void MainWindow::closeEvent(QCloseEvent* event) {
-  session_.Do(Action::kSave);
+  try {
+    if (!session_.project().read_only()) session_.Do(Action::kSave);
+  } catch (const std::exception& error) {
+    const auto answer = QMessageBox::warning(
+        this, tr("Not saved"), tr("%1\n\nClose all the same?").arg(error.what()),
+        QMessageBox::Close | QMessageBox::Cancel, QMessageBox::Cancel);
+    if (answer != QMessageBox::Close) return event->ignore();
+  }
   event->accept();
 }
 

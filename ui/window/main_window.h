@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QMainWindow>
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -32,6 +33,7 @@ class MainWindow : public QMainWindow {
   LabelSession& session() { return session_; }
   // All of the results of `lift` in a folder; says what went wrong, if anything did.
   void ExportTo(const QString& folder);
+  void FindPicturesIn(const QString& folder);  // that are no more where the labels say
 
  public slots:
   void Refresh();
@@ -47,6 +49,9 @@ class MainWindow : public QMainWindow {
   void AddLook();
   QAction* Add(class QMenu* menu, Action action);
   void Do(Action action);
+  bool Try(const std::function<void()>& act);
+  void Tell(const QString& text);
+  void FindPictures();
   void ShowKeys();
   void Open();
   void AskExport();

@@ -15,6 +15,8 @@
 namespace poselift {
 namespace {
 
+namespace fs = std::filesystem;
+
 using testing::FileText;
 using testing::RunProgram;
 
@@ -88,6 +90,44 @@ TEST_F(MainWindowTest, EveryWidgetThatTakesTheFocusHasANameForReaders) {
     EXPECT_FALSE(widget->objectName().isEmpty()) << widget->metaObject()->className();
     EXPECT_FALSE(widget->accessibleName().isEmpty()) << widget->objectName().toStdString();
   }
+}
+
+TEST_F(MainWindowTest, PicturesThatMovedAreFoundAgain) {
+  QTest::mouseClick(picture_, Qt::LeftButton, {}, At(Label("pelvis")));
+  window_->close();
+  fs::create_directories(folder_ / "moved");
+  fs::rename(folder_ / "kick.jpg", folder_ / "moved/kick.jpg");
+  window_.reset();
+  project_.reset();
+  project_ = std::make_unique<LabelProject>(file_);
+  window_ = std::make_unique<MainWindow>(project_.get(), lifter_, KeyMap());
+  EXPECT_TRUE(window_->statusBar()->currentMessage().contains("Find moved pictures"));
+  window_->FindPicturesIn(QString::fromStdString((folder_ / "moved").string()));
+  EXPECT_EQ(fs::weakly_canonical(window_->session().PicturePath()),
+            fs::weakly_canonical(folder_ / "moved/kick.jpg"));
+  EXPECT_EQ(Landmarks().size(), 1U);
+}
+
+TEST_F(MainWindowTest, ASecondWindowOnTheSameLabelsMayOnlyLook) {
+  LabelProject second(file_);
+  MainWindow window(&second, lifter_, KeyMap());
+  window.show();
+  EXPECT_TRUE(window.windowTitle().contains("read only"));
+  EXPECT_FALSE(window.statusBar()->currentMessage().isEmpty());
+  auto* const picture = window.findChild<PictureCanvas*>("picture");
+  QTest::mouseClick(picture, Qt::LeftButton, {}, {300, 200});
+  EXPECT_TRUE(window.session().labels().frames[0].people.empty());
+  EXPECT_TRUE(window.close());
+}
+
+TEST_F(MainWindowTest, WhatCannotBeExportedIsSaidAndNothingEnds) {
+  ClickAll();
+  window_->ExportTo("/dev/null/none");
+  auto* const message = window_->findChild<QMessageBox*>("message");
+  ASSERT_NE(message, nullptr);
+  EXPECT_FALSE(message->text().isEmpty());
+  message->close();
+  EXPECT_EQ(Landmarks().size(), 15U);
 }
 
 TEST_F(MainWindowTest, AFlippedLegIsAHintThatADoubleClickForgets) {

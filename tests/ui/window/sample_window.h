@@ -6,7 +6,9 @@
 
 #include <QAction>
 #include <QListWidget>
+#include <QMessageBox>
 #include <QSlider>
+#include <QStatusBar>
 #include <QTest>
 #include <filesystem>
 #include <memory>
