@@ -6,6 +6,7 @@
 #include "src/io/atomic_file.h"
 #include "src/io/image.h"
 #include "src/io/image_folder.h"
+#include "src/io/video.h"
 #include "ui/label/label_project.h"
 
 namespace poselift {
@@ -19,22 +20,36 @@ std::vector<fs::path> PicturesOf(const std::vector<std::string>& inputs) {
     if (fs::is_directory(input)) {
       const ImageFolder folder(input);
       pictures.insert(pictures.end(), folder.files().begin(), folder.files().end());
-    } else if (HasImageEnding(input)) {
+    } else if (HasImageEnding(input) || IsVideoFile(input)) {
       pictures.push_back(input);
     } else {
-      throw InputError(input,
-                       "found no picture, wanted pictures, folders of them or a labels file");
+      throw InputError(
+          input, "found no picture, wanted pictures, folders of them, videos or a labels file");
     }
   }
   return pictures;
 }
 
-FrameLabels FrameOf(const fs::path& picture, const fs::path& labels_file) {
-  const cv::Mat bgr = ReadImage(picture);
+// One of a picture; of a video all that it has.
+void AddFrames(const fs::path& picture, const fs::path& labels_file, Labels* labels) {
   const fs::path folder = fs::absolute(labels_file).parent_path();
-  return {.image = fs::absolute(picture).lexically_relative(folder).string(),
-          .width_px = bgr.cols,
-          .height_px = bgr.rows};
+  FrameLabels frame{.image = fs::absolute(picture).lexically_relative(folder).string()};
+  if (!IsVideoFile(picture)) {
+    const cv::Mat bgr = ReadImage(picture);
+    frame.width_px = bgr.cols;
+    frame.height_px = bgr.rows;
+    labels->frames.push_back(std::move(frame));
+    return;
+  }
+  const cv::Size size_px = VideoFile(picture).size_px();
+  frame.width_px = size_px.width;
+  frame.height_px = size_px.height;
+  frame.frame = 0;
+  for (const double time_s : ReadFrameTimes(picture)) {
+    frame.time_s = time_s;
+    labels->frames.push_back(frame);
+    ++*frame.frame;
+  }
 }
 
 }  // namespace
@@ -52,7 +67,7 @@ fs::path FindLabelsFile(const std::vector<std::string>& inputs, const std::strin
                : pictures[0].parent_path() / "labels.json";
   if (fs::exists(file)) return file;
   Labels labels{.layout = layout};
-  for (const fs::path& picture : pictures) labels.frames.push_back(FrameOf(picture, file));
+  for (const fs::path& picture : pictures) AddFrames(picture, file, &labels);
   PrepareFolderOf(file);
   CreateLabelsFile(file, labels);
   return file;

@@ -25,8 +25,9 @@ int main(int argc, char** argv) {
   options.footer("Example:\n  poselift label skier.jpg");
   std::vector<std::string> inputs;
   std::string labels, layout = "body15", keys;
-  options.add_option("INPUT", inputs,
-                     "Pictures, folders of pictures, or a labels file; none: a window asks");
+  options.add_option(
+      "INPUT", inputs,
+      "Pictures, folders of pictures, videos, or a labels file; none: a window asks");
   options.add_option("--labels", labels,
                      "The labels file (default: NAME.labels.json beside the first picture)");
   options.add_option("--layout", layout, "Landmarks of new labels")->capture_default_str();

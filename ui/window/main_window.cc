@@ -22,9 +22,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "ui/window/image_from.h"
 #include "ui/window/picture_canvas.h"
-#include "ui/window/picture_loader.h"
 #include "ui/window/pose_canvas.h"
+#include "ui/window/timeline.h"
 #include "ui/window/welcome.h"
 
 namespace poselift {
@@ -39,7 +40,7 @@ QString TextOf(std::string_view text) {
 }  // namespace
 
 MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const KeyMap& keys)
-    : lifter_(lifter), keys_(keys), session_(project, lifter, [this] {
+    : lifter_(lifter), keys_(keys), pictures_(project->dir()), session_(project, lifter, [this] {
         QMetaObject::invokeMethod(
             this,
             [this] {
@@ -268,16 +269,18 @@ void MainWindow::Refresh() {
   }
   picture_->update();
   pose_->update();
+  timeline_->update();
 }
 
 void MainWindow::ShowPicture() {
+  if (session_.labels().frames.empty()) return;
   const QSignalBlocker blocker(frames_);
   frames_->setRange(0, static_cast<int>(session_.labels().frames.size()) - 1);
   frames_->setValue(static_cast<int>(session_.frame_index()));
   if (shown_frame_ == session_.frame_index()) return;
   shown_frame_ = session_.frame_index();
   try {
-    picture_->SetPicture(LoadPicture(session_.PicturePath()));
+    picture_->SetPicture(ImageFrom(pictures_.Read(session_.labels().frames.at(*shown_frame_))));
   } catch (const std::exception& error) {
     picture_->SetPicture({});
     statusBar()->showMessage(error.what() + tr("; File, Find moved pictures says where it is now"));

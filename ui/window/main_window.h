@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "ui/label/frame_pictures.h"
 #include "ui/label/key_map.h"
 #include "ui/label/label_session.h"
 
@@ -20,6 +21,7 @@ namespace poselift {
 
 class PictureCanvas;
 class PoseCanvas;
+class Timeline;
 
 // The labelling window: the picture, the pose that answers, the list of joints, the frames. It
 // holds no labels: it paints a LabelSession and forwards to it.
@@ -63,11 +65,13 @@ class MainWindow : public QMainWindow {
 
   const PhotoLifter& lifter_;
   KeyMap keys_;
+  FramePictures pictures_;
   std::map<Action, QAction*> actions_;
   PictureCanvas* picture_ = nullptr;
   PoseCanvas* pose_ = nullptr;
   QListWidget *joints_ = nullptr, *hints_ = nullptr;
   QSlider* frames_ = nullptr;
+  Timeline* timeline_ = nullptr;
   std::vector<QDockWidget*> docks_;  // that may be hidden
   QLabel* status_ = nullptr;
   QLabel* cursor_ = nullptr;

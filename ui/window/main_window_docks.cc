@@ -8,12 +8,14 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSlider>
+#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
 #include "src/joint_relation.h"
 #include "ui/window/main_window.h"
 #include "ui/window/picture_canvas.h"
+#include "ui/window/timeline.h"
 
 namespace poselift {
 namespace {
@@ -52,12 +54,18 @@ void MainWindow::AddJoints() {
 void MainWindow::AddFrames() {
   auto* const dock = new QDockWidget(tr("Pictures"), this);
   dock->setObjectName("frames_dock");
-  frames_ = new QSlider(Qt::Horizontal, dock);
+  auto* const box = new QWidget(dock);
+  auto* const column = new QVBoxLayout(box);
+  timeline_ = new Timeline(&session_, box);
+  frames_ = new QSlider(Qt::Horizontal, box);
   frames_->setObjectName("frames");
   frames_->setAccessibleName(tr("Picture"));
-  dock->setWidget(frames_);
+  column->addWidget(timeline_);
+  column->addWidget(frames_);
+  dock->setWidget(box);
   docks_.push_back(dock);
   addDockWidget(Qt::BottomDockWidgetArea, dock);
+  connect(timeline_, &Timeline::Chosen, frames_, &QSlider::setValue);
   connect(frames_, &QSlider::valueChanged, this, [this](int value) {
     session_.GoToFrame(static_cast<size_t>(value));
     Refresh();

@@ -47,9 +47,11 @@ Welcome::Welcome(fs::path sample, QWidget* parent) : QDialog(parent), sample_(st
 }
 
 std::vector<std::string> Welcome::AskForPictures(QWidget* parent) {
-  const QStringList files = QFileDialog::getOpenFileNames(
-      parent, tr("Pictures or a labels file"), {},
-      tr("Pictures and labels (*.jpg *.jpeg *.png *.tif *.tiff *.webp *.bmp *.json);;All (*)"));
+  const QStringList files =
+      QFileDialog::getOpenFileNames(parent, tr("Pictures or a labels file"), {},
+                                    tr("Pictures and labels (*.jpg *.jpeg *.png *.tif *.tiff "
+                                       "*.webp *.bmp *.mp4 *.mov *.avi *.mkv *.webm "
+                                       "*.json);;All (*)"));
   std::vector<std::string> inputs;
   for (const QString& file : files) inputs.push_back(file.toStdString());
   return inputs;

@@ -130,6 +130,28 @@ TEST_F(MainWindowTest, WhatCannotBeExportedIsSaidAndNothingEnds) {
   EXPECT_EQ(Landmarks().size(), 15U);
 }
 
+TEST_F(MainWindowTest, AVideoIsLabelledAlongItsTimeline) {
+  const fs::path file = folder_ / "clip.labels.json";
+  for (const char* left : {"clip.labels.json", ".clip.labels.json.journal"})
+    fs::remove(folder_ / left);
+  LabelProject clip(FindLabelsFile({testing::SourcePath("samples/tags/clip.mp4").string()},
+                                   file.string(), "body15"));
+  MainWindow window(&clip, lifter_, KeyMap());
+  window.show();
+  auto* const picture = window.findChild<PictureCanvas*>("picture");
+  auto* const timeline = window.findChild<QWidget*>("timeline");
+  const QImage first = picture->grab().toImage();
+  QTest::mouseClick(timeline, Qt::LeftButton, {}, {timeline->width() / 2, 5});
+  EXPECT_EQ(window.session().frame_index(), 45U);
+  EXPECT_NE(picture->grab().toImage(), first);
+  const QImage before = timeline->grab().toImage();
+  QTest::mouseClick(picture, Qt::LeftButton, {}, {300, 200});
+  EXPECT_NE(timeline->grab().toImage(), before);
+  window.findChild<QAction*>("next_frame")->trigger();
+  window.findChild<QAction*>("copy_previous")->trigger();
+  EXPECT_EQ(clip.labels().frames[46].people.at(0).landmarks.size(), 1U);
+}
+
 TEST_F(MainWindowTest, AFlippedLegIsAHintThatADoubleClickForgets) {
   ClickAll();
   window_->session().WaitUntilSolved();

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#pragma once
+
+#include <QImage>
+#include <opencv2/core/mat.hpp>
+
+namespace poselift {
+
+// A BGR picture for the screen.
+QImage ImageFrom(const cv::Mat& bgr);
+
+}  // namespace poselift

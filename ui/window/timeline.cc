@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "ui/window/timeline.h"
+
+#include <QMouseEvent>
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+
+namespace poselift {
+namespace {
+
+constexpr int kHeight = 16;
+
+}  // namespace
+
+Timeline::Timeline(LabelSession* session, QWidget* parent) : QWidget(parent), session_(session) {
+  setObjectName("timeline");
+  setAccessibleName(tr("Which pictures have labels"));
+  setToolTip(tr("Which pictures have labels; a click goes there"));
+  setFixedHeight(kHeight);
+}
+
+void Timeline::paintEvent(QPaintEvent* /*event*/) {
+  QPainter painter(this);
+  painter.fillRect(rect(), palette().color(QPalette::Base));
+  const auto& frames = session_->labels().frames;
+  if (frames.empty()) return;
+  const size_t count = session_->layout().landmarks.size();
+  const double step = static_cast<double>(width()) / static_cast<double>(frames.size());
+  const auto tick = [&](size_t f) {
+    return QRectF(static_cast<double>(f) * step, 0.0, std::max(1.0, step - 1.0), kHeight);
+  };
+  QColor full = palette().color(QPalette::Highlight), part = full;
+  part.setAlphaF(0.4F);
+  for (size_t f = 0; f < frames.size(); ++f) {
+    if (session_->person_index() >= frames[f].people.size()) continue;
+    const size_t num_labels = frames[f].people[session_->person_index()].landmarks.size();
+    if (num_labels > 0) painter.fillRect(tick(f), num_labels < count ? part : full);
+  }
+  painter.setPen(palette().color(QPalette::Text));
+  painter.drawRect(tick(session_->frame_index()).adjusted(0.0, 0.0, 0.0, -1.0));
+}
+
+void Timeline::Choose(double x) {
+  const auto count = static_cast<double>(session_->labels().frames.size());
+  if (count > 0.0)
+    emit Chosen(static_cast<int>(std::clamp(std::floor(x / width() * count), 0.0, count - 1.0)));
+}
+
+void Timeline::mousePressEvent(QMouseEvent* event) { Choose(event->position().x()); }
+
+void Timeline::mouseMoveEvent(QMouseEvent* event) {
+  if (event->buttons() & Qt::LeftButton) Choose(event->position().x());
+}
+
+}  // namespace poselift
