@@ -6,7 +6,7 @@ cd "$(dirname "$0")"
 source scripts/packages.sh
 
 install_packages "${build_packages[@]}"
-build_release poselift poselift_bench
+build_release poselift poselift-label poselift_bench
 
 lift_sample() { # lift_sample NAME: into out/demo/NAME
   local sample=samples/photo/$1

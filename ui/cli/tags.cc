@@ -14,9 +14,9 @@ namespace poselift::cli {
 
 CLI::App* AddTags(CLI::App* app, Run* run) {
   CLI::App* tags =
-      app->add_subcommand("tags", "AprilTags on a body: print them, find where they sit");
+      app->add_subcommand("tags", "AprilTags: print them, find them, fit where they sit on a body");
   tags->require_subcommand(1);
-  constexpr std::array kCommands = {AddTagsPrint, AddTagsFit};
+  constexpr std::array kCommands = {AddTagsPrint, AddTagsFind, AddTagsFit};
   auto commands = std::make_shared<std::vector<std::pair<CLI::App*, Run>>>(kCommands.size());
   for (size_t i = 0; i < kCommands.size(); ++i)
     (*commands)[i].first = kCommands[i](tags, &(*commands)[i].second);

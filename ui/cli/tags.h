@@ -8,6 +8,7 @@ namespace poselift::cli {
 
 // Commands of `tags`, one file each.
 CLI::App* AddTagsPrint(CLI::App* tags, Run* run);
+CLI::App* AddTagsFind(CLI::App* tags, Run* run);
 CLI::App* AddTagsFit(CLI::App* tags, Run* run);
 
 }  // namespace poselift::cli
