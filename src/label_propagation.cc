@@ -218,6 +218,7 @@ FrameLabels Propagation::Frame(const HeldFrame& held, const Key* behind) const {
 PersonLabels Propagation::Person(int id, const HeldFrame& held, const Key* behind) const {
   PersonLabels person;
   person.id = id;
+  person.is_propagated = true;
   for (const Key* key : {key_ ? &*key_ : nullptr, behind}) {
     const PersonLabels* known = key ? FindPerson(&key->labels, id) : nullptr;
     if (!known) continue;

@@ -42,6 +42,8 @@ struct PersonLabels {
   int id = 0;
   std::vector<LandmarkLabel> landmarks;
   std::vector<LabelHint> hints = {};
+  // Followed from other frames, or put between them: not what a person said of this frame.
+  bool is_propagated = false;
 };
 
 struct FrameLabels {

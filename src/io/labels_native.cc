@@ -157,6 +157,8 @@ PersonLabels ReadPerson(const JsonValue& json, const Layout& layout, int index) 
     person.landmarks.push_back(ReadLandmark(landmark, name));
   }
   if (const JsonValue* hints = json.Find("hints")) person.hints = ReadHints(*hints, layout);
+  if (const JsonValue* propagated = json.Find("propagated"))
+    person.is_propagated = propagated->Boolean();
   return person;
 }
 
@@ -218,7 +220,8 @@ void AppendPerson(const PersonLabels& person, std::string* out) {
     *out += i > 0 ? ", " : ", \"hints\": [";
     AppendHint(person.hints[i], out);
   }
-  *out += person.hints.empty() ? "}" : "]}";
+  if (!person.hints.empty()) *out += "]";
+  *out += person.is_propagated ? ", \"propagated\": true}" : "}";
 }
 
 }  // namespace

@@ -50,6 +50,7 @@ const LandmarkLabel& LandmarkAt(const Labels& labels, PersonRef ref, std::string
 // The frame's people, with this one in its place or behind the others.
 LabelEdit WithPerson(const Labels& labels, size_t frame, PersonLabels person, std::string name) {
   std::vector<PersonLabels> people = labels.frames.at(frame).people;
+  person.is_propagated = false;  // somebody looked at it
   if (const auto found = Find(people, person.id); found != people.end())
     *found = std::move(person);
   else
@@ -148,10 +149,7 @@ LabelEdit PlaceLandmark(const Labels& labels, PersonRef ref, std::string_view la
                         const Eigen::Vector2d& x_px, LabelState state) {
   if (!LayoutOf(labels).Find(landmark))
     throw std::invalid_argument(fmt::format("no {} in the layout {}", landmark, labels.layout));
-  LandmarkLabel placed{std::string(landmark), x_px, state, std::nullopt};
-  if (const LandmarkLabel* old = FindLandmark(labels, ref, landmark))
-    placed.radius_px = old->radius_px;
-  return WithLandmark(labels, ref, std::move(placed), "place");
+  return WithLandmark(labels, ref, {std::string(landmark), x_px, state, std::nullopt}, "place");
 }
 
 LabelEdit MoveLandmark(const Labels& labels, PersonRef ref, std::string_view landmark,
@@ -159,6 +157,7 @@ LabelEdit MoveLandmark(const Labels& labels, PersonRef ref, std::string_view lan
   LandmarkLabel moved = LandmarkAt(labels, ref, landmark);
   moved.x_px = x_px;
   if (moved.state == LabelState::kAbsent) moved.state = LabelState::kVisible;
+  moved.radius_px.reset();
   return WithLandmark(labels, ref, std::move(moved), "move");
 }
 
@@ -167,6 +166,7 @@ LabelEdit NudgeLandmark(const Labels& labels, PersonRef ref, std::string_view la
   LandmarkLabel nudged = LandmarkAt(labels, ref, landmark);
   nudged.x_px += step_px;
   if (nudged.state == LabelState::kAbsent) nudged.state = LabelState::kVisible;
+  nudged.radius_px.reset();
   LabelEdit edit = WithLandmark(labels, ref, std::move(nudged), "nudge");
   edit.merge_key = fmt::format("nudge {} of {} in {}", landmark, ref.id, ref.frame);
   return edit;
@@ -293,6 +293,11 @@ Eigen::Vector2d PersonCenter(const PersonLabels& person) {
 LabelEdit CopyPerson(const Labels& labels, PersonRef from, size_t to_frame) {
   return WithPerson(labels, to_frame, PersonAt(labels, from),
                     fmt::format("copy person {} from frame {}", from.id, from.frame + 1));
+}
+
+LabelEdit PastePerson(const Labels& labels, PersonRef to, PersonLabels person) {
+  person.id = to.id;
+  return WithPerson(labels, to.frame, std::move(person), fmt::format("paste person {}", to.id));
 }
 
 }  // namespace poselift

@@ -28,10 +28,11 @@ struct PersonRef {
 const PersonLabels* FindPerson(const Labels& labels, PersonRef ref);
 const LandmarkLabel* FindLandmark(const Labels& labels, PersonRef ref, std::string_view landmark);
 
-// Puts the landmark there; the person too when it is new. "place left knee"
+// Puts the landmark there; the person too when it is new. "place left knee". Where a hand puts a
+// landmark, no radius of a detector or of flow stays.
 LabelEdit PlaceLandmark(const Labels& labels, PersonRef ref, std::string_view landmark,
                         const Eigen::Vector2d& x_px, LabelState state = LabelState::kVisible);
-// State and radius stay, but what was absent is visible where it is put. "move left knee"
+// The state stays, but what was absent is visible where it is put. "move left knee"
 LabelEdit MoveLandmark(const Labels& labels, PersonRef ref, std::string_view landmark,
                        const Eigen::Vector2d& x_px);
 // The same by a difference; nudges in a row are one step. "nudge left knee"
@@ -83,5 +84,7 @@ Eigen::Vector2d PersonCenter(const PersonLabels& person);
 // The person of the other frame, with states, radii and hints, into this frame, in the place of the
 // one with the same id. "copy person 1 from frame 4" (counted from 1, as people do)
 LabelEdit CopyPerson(const Labels& labels, PersonRef from, size_t to_frame);
+// In the place of this person, whose id stays. "paste person 1"
+LabelEdit PastePerson(const Labels& labels, PersonRef to, PersonLabels person);
 
 }  // namespace poselift

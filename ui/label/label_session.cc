@@ -30,14 +30,14 @@ LabelSession::LabelSession(LabelProject* project, const PhotoLifter& lifter,
     : project_(project),
       lifter_(lifter),
       layout_(FindLayout(project->labels().layout)),
-      solver_(lifter,
-              [this, answered = std::move(answered)](uint64_t number, const LiftResult& result) {
-                {
-                  const std::scoped_lock lock(mutex_);
-                  waiting_ = {number, result};
-                }
-                if (answered) answered();
-              }) {
+      wake_(std::move(answered)),
+      solver_(lifter, [this](uint64_t number, const LiftResult& result) {
+        {
+          const std::scoped_lock lock(mutex_);
+          waiting_ = {number, result};
+        }
+        if (wake_) wake_();
+      }) {
   if (!layout_) throw InputError("found labels without a layout, wanted one, such as body15");
   GoToFrame(0);
 }
@@ -134,14 +134,14 @@ bool LabelSession::HasLabelAtHand() const {
          Find(people[person_index_], layout_->landmarks[static_cast<size_t>(landmark_)].name);
 }
 
-void LabelSession::CycleStateAt(const Eigen::Vector2d& x_px, double reach_px) {
-  if (labels().frames.empty()) return;
+bool LabelSession::CycleStateAt(const Eigen::Vector2d& x_px, double reach_px) {
+  if (labels().frames.empty()) return false;
   const auto hit = HitLandmark(labels().frames[frame_index_], x_px, reach_px, person_index_);
-  if (!hit) return;
+  if (!hit) return false;
   person_index_ = hit->person;
   const auto& landmarks = labels().frames[frame_index_].people[hit->person].landmarks;
   landmark_ = layout_->Find(landmarks[hit->landmark].name).value_or(landmark_);
-  Do(Action::kCycleState);
+  return Do(Action::kCycleState);
 }
 
 void LabelSession::GoToFrame(size_t index) {
@@ -165,6 +165,10 @@ void LabelSession::GoToPerson(size_t index) {
 
 void LabelSession::GoToLandmark(int landmark) {
   landmark_ = std::clamp(landmark, 0, static_cast<int>(layout_->landmarks.size()) - 1);
+}
+
+void LabelSession::TypeDigit(int digit, double now_s) {
+  GoToLandmark(typed_.Type(digit, static_cast<int>(layout_->landmarks.size()), now_s) - 1);
 }
 
 // The next one without a label; the next one where all have one.
@@ -201,9 +205,10 @@ void LabelSession::Ask() {
 }
 
 bool LabelSession::TakeAnswer() {
+  const bool is_followed = TakeFollowed();
   const std::scoped_lock lock(mutex_);
   // An older one is of labels that are no more.
-  if (!waiting_ || waiting_->first != asked_) return false;
+  if (!waiting_ || waiting_->first != asked_) return is_followed;
   result_ = std::move(waiting_->second);
   waiting_.reset();
   observation_ = asked_observation_;
@@ -230,6 +235,13 @@ std::optional<double> LabelSession::Residual_px(std::string_view landmark) const
   return std::nullopt;
 }
 
+std::optional<double> LabelSession::ResidualInSigmas(std::string_view landmark) const {
+  const auto residual_px = Residual_px(landmark);
+  const auto point = std::ranges::find(observation_.points, landmark, &ObservedPoint::name);
+  if (!residual_px || point == observation_.points.end()) return std::nullopt;
+  return *residual_px / point->sigma;
+}
+
 std::filesystem::path LabelSession::PicturePath() const {
   if (labels().frames.empty()) return {};
   const std::string& image = labels().frames[frame_index_].image;
@@ -253,6 +265,8 @@ std::string LabelSession::Title() const {
 std::string LabelSession::Status() const {
   if (!project_->unsaved_reason().empty()) return "NOT SAVED: " + project_->unsaved_reason();
   if (labels().frames.empty()) return "no pictures";
+  if (const auto fraction = FollowProgress())
+    return fmt::format("following the labels: {:.0f} %, Esc stops it", 100.0 * *fraction);
   if (!notice_.empty()) return notice_;
   if (nearer_)
     return fmt::format("click the joint that is farther from the camera than {}",

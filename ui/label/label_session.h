@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -15,8 +16,11 @@
 #include "lift/lift_photo.h"
 #include "src/labels.h"
 #include "src/layout.h"
+#include "ui/label/background_job.h"
 #include "ui/label/key_map.h"
+#include "ui/label/key_repeat.h"
 #include "ui/label/label_edits.h"
+#include "ui/label/label_flow.h"
 #include "ui/label/label_project.h"
 #include "ui/label/picture_hit.h"
 #include "ui/label/pose_solver.h"
@@ -49,7 +53,7 @@ class LabelSession {
   void PressPerson(const Eigen::Vector2d& x_px);  // drags all of the person at hand
   void Move(const Eigen::Vector2d& x_px);
   void Release();
-  void CycleStateAt(const Eigen::Vector2d& x_px, double reach_px);
+  bool CycleStateAt(const Eigen::Vector2d& x_px, double reach_px);
 
   // Hints of the person at hand (src/labels.h).
   std::vector<LabelHint> Hints() const;
@@ -57,13 +61,19 @@ class LabelSession {
   void RemoveHintAt(size_t index);
 
   void GoToFrame(size_t index);
-  void GoToPerson(size_t index);    // one behind the last is a new one
-  void GoToLandmark(int landmark);  // the nearest there is
+  void GoToPerson(size_t index);            // one behind the last is a new one
+  void GoToLandmark(int landmark);          // the nearest there is
+  void TypeDigit(int digit, double now_s);  // to the landmark of that number, counted from 1
   // What a key does; false for what belongs to the view alone.
   bool Do(Action action);
   // The whole person at hand, about its middle; what is done in a row is one step.
   void TurnPersonBy(double angle_rad);  // clockwise
   void ScalePersonBy(double factor);
+
+  // While labels are followed through a video: how far that is.
+  std::optional<double> FollowProgress() const;
+  // Ends when they have been followed; for programs without events.
+  void WaitUntilFollowed();
 
   // Takes the newest answer, if one has come; true when what is shown changed.
   bool TakeAnswer();
@@ -77,6 +87,7 @@ class LabelSession {
 
   // How far the pose is from a landmark's label; nothing without one of them.
   std::optional<double> Residual_px(std::string_view landmark) const;
+  std::optional<double> ResidualInSigmas(std::string_view landmark) const;
   std::filesystem::path PicturePath() const;  // of the frame at hand; empty without one
   // Points to pictures that moved there; returns how many. Throws InputError as LabelProject.
   size_t Relink(const std::filesystem::path& folder) { return project_->Relink(folder); }
@@ -99,6 +110,9 @@ class LabelSession {
   bool DoOnPerson(Action action);
   bool DoOnProject(Action action);
   bool DoHint(Action action);
+  bool DoFlow(Action action);
+  void Follow(Reach reach);
+  bool TakeFollowed();
   void FlipLimb(const std::string& joint);
   void KeepPose();
   void Give(std::vector<LabelHint> hints);
@@ -109,6 +123,7 @@ class LabelSession {
   const Layout* layout_;
   size_t frame_index_ = 0, person_index_ = 0;
   int landmark_ = 0;
+  TypedNumber typed_;
   std::optional<int> nearer_;  // the next landmark that is clicked is farther than this one
   std::string notice_;         // of what was done last, when nothing came of it
   struct Drag {
@@ -125,11 +140,15 @@ class LabelSession {
 
   std::mutex mutex_;
   std::optional<std::pair<uint64_t, LiftResult>> waiting_;  // guarded by mutex_
+  std::function<void()> wake_;                              // the window, from another thread
+  std::optional<PersonLabels> clipboard_;
   uint64_t asked_ = 0, answered_ = 0;
   Observation asked_observation_, observation_;
   LiftResult result_;
   size_t pose_index_ = 0;
-  PoseSolver solver_;  // the last member: its thread uses the others
+  // The last members: their threads use the others.
+  std::unique_ptr<BackgroundJob<GuessedLabels>> follow_;
+  PoseSolver solver_;
 };
 
 }  // namespace poselift

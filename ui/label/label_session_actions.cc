@@ -11,8 +11,6 @@
 namespace poselift {
 namespace {
 
-constexpr double kNudge_px = 0.1;
-
 bool HasLabels(const FrameLabels& frame) {
   return std::ranges::any_of(frame.people,
                              [](const PersonLabels& person) { return !person.landmarks.empty(); });
@@ -33,7 +31,7 @@ bool LabelSession::Do(Action action) {
   notice_.clear();
   nearer_.reset();
   return DoGo(action) || DoOnLandmark(action) || DoOnPerson(action) || DoHint(action) ||
-         DoOnProject(action);
+         DoFlow(action) || DoOnProject(action);
 }
 
 bool LabelSession::DoGo(Action action) {
@@ -81,17 +79,18 @@ bool LabelSession::DoGo(Action action) {
 bool LabelSession::DoOnLandmark(Action action) {
   struct Nudge {
     Action action;
-    double x, y;
+    double x_px, y_px;
   };
-  constexpr std::array kNudges = {Nudge{Action::kNudgeLeft, -1, 0},
-                                  Nudge{Action::kNudgeRight, 1, 0}, Nudge{Action::kNudgeUp, 0, -1},
-                                  Nudge{Action::kNudgeDown, 0, 1}};
+  constexpr std::array kNudges = {
+      Nudge{Action::kNudgeLeft, -0.1, 0.0}, Nudge{Action::kNudgeRight, 0.1, 0.0},
+      Nudge{Action::kNudgeUp, 0.0, -0.1},   Nudge{Action::kNudgeDown, 0.0, 0.1},
+      Nudge{Action::kStepLeft, -1.0, 0.0},  Nudge{Action::kStepRight, 1.0, 0.0},
+      Nudge{Action::kStepUp, 0.0, -1.0},    Nudge{Action::kStepDown, 0.0, 1.0}};
   const std::string_view name = layout_->landmarks[static_cast<size_t>(landmark_)].name;
   const bool has_label = HasLabelAtHand();
   if (const auto* const nudge = std::ranges::find(kNudges, action, &Nudge::action);
       nudge != kNudges.end()) {
-    if (has_label)
-      Apply(NudgeLandmark(labels(), Ref(), name, kNudge_px * Eigen::Vector2d(nudge->x, nudge->y)));
+    if (has_label) Apply(NudgeLandmark(labels(), Ref(), name, {nudge->x_px, nudge->y_px}));
     return true;
   }
   switch (action) {

@@ -24,7 +24,7 @@ void ViewTransform::FitBox(const Eigen::Vector2d& a_px, const Eigen::Vector2d& b
   if (!(size_px.minCoeff() > 0.0) || !(widget_size.minCoeff() > 0.0)) return;
   scale_ = std::clamp(widget_size.cwiseQuotient(size_px).minCoeff(), kLeastScale, kLargestScale);
   const Eigen::Vector2d middle_px = 0.5 * (a_px + b_px);
-  offset_in_widget_ = 0.5 * widget_size - scale_ * (middle_px.array() + 0.5).matrix();
+  offset_in_widget_ = 0.5 * widget_size - Scales().cwiseProduct((middle_px.array() + 0.5).matrix());
 }
 
 }  // namespace poselift

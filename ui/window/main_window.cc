@@ -5,6 +5,7 @@
 #include <QAction>
 #include <QCloseEvent>
 #include <QCoreApplication>
+#include <QDateTime>
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QInputDialog>
@@ -18,6 +19,7 @@
 #include <QSlider>
 #include <QSplitter>
 #include <QStatusBar>
+#include <QTimer>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -72,6 +74,12 @@ MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const K
   connect(picture_, &PictureCanvas::CursorAt, this, [this](double x_px, double y_px) {
     cursor_->setText(QString("%1, %2").arg(x_px, 0, 'f', 1).arg(y_px, 0, 'f', 1));
   });
+  auto* const clock = new QTimer(this);
+  connect(clock, &QTimer::timeout, this, [this] {
+    if (session_.FollowProgress()) status_->setText(QString::fromStdString(session_.Status()));
+  });
+  constexpr int kOften_ms = 200;
+  clock->start(kOften_ms);
   resize(1280, 800);
   picture_->setFocus();
   Refresh();
@@ -118,8 +126,11 @@ void MainWindow::AddMenus() {
   const std::vector<Menu> menus = {
       {tr("&Edit"),
        {kUndo, kRedo, kCycleState, kRemove, kCopyPrevious, kNudgeLeft, kNudgeRight, kNudgeUp,
-        kNudgeDown}},
+        kNudgeDown, kStepLeft, kStepRight, kStepUp, kStepDown, kCopy, kPaste}},
       {tr("Pe&rson"), {kNextPerson, kNewPerson, kRemovePerson, kSwapSides}},
+      {tr("Pi&ctures"),
+       {kFollowAll, kFollowForwards, kFollowBackwards, kPosesBetween, kCopyFollowed, kAccept,
+        kStop}},
       {tr("&Go"),
        {kNextJoint, kPreviousJoint, kNextFrame, kPreviousFrame, kForward10, kBack10, kForward100,
         kBack100, kFirstFrame, kLastFrame, kNextUnlabelled, kNextLabelled, kPreviousLabelled}},
@@ -127,8 +138,8 @@ void MainWindow::AddMenus() {
        {kNextPose, kKeepPose, kFlipLimb, kTowardsCamera, kAwayFromCamera, kNearer, kOnFloor,
         kForgetHints}},
       {tr("&View"),
-       {kZoomIn, kZoomOut, kFit, kFullSize, kToggleLoupe, kToggleLabels, kToggleEdges,
-        kToggleSkeleton}},
+       {kZoomIn, kZoomOut, kFit, kFullSize, kZoomToBox, kMirrorView, kToggleLoupe, kToggleLabels,
+        kToggleEdges, kToggleSkeleton}},
       {tr("&Help"), {kHelp}}};
   for (const Menu& menu : menus) {
     auto* const items = menuBar()->addMenu(menu.title);
@@ -151,6 +162,15 @@ void MainWindow::Do(Action action) {
       return picture_->Fit();
     case Action::kFullSize:
       return picture_->FullSize();
+    case Action::kZoomToBox:
+      return picture_->ZoomToBox();
+    case Action::kMirrorView:
+      return picture_->Mirror();
+    case Action::kNextFrame:
+    case Action::kPreviousFrame:
+      for (int i = repeat_.Step(QDateTime::currentMSecsSinceEpoch() / 1e3); i > 0; --i)
+        Try([&] { session_.Do(action); });
+      break;
     case Action::kToggleLoupe:
       picture_->shows_loupe = !picture_->shows_loupe;
       break;
@@ -210,8 +230,9 @@ void MainWindow::ShowKeys() {
                 .arg(QString::fromStdString(keys_.Text(info.action)).toHtmlEscaped(),
                      tr(info.description.data()));
   text += "</table>" + tr("<p>Left button: place the joint at hand, or drag any. Right button: "
-                          "visible, occluded, absent. Middle button, or space and left: pan. "
-                          "Wheel: zoom.");
+                          "visible, occluded, absent. Middle button, or space and left, or right "
+                          "where no joint is: pan. Wheel: zoom. Digits: to the joint of that "
+                          "number.");
   auto* const box = new QMessageBox(QMessageBox::NoIcon, tr("Keys"), text, QMessageBox::Ok, this);
   box->setObjectName("keys");
   box->setAttribute(Qt::WA_DeleteOnClose);

@@ -65,6 +65,7 @@ class MainWindow : public QMainWindow {
 
   const PhotoLifter& lifter_;
   KeyMap keys_;
+  KeyRepeat repeat_;
   FramePictures pictures_;
   std::map<Action, QAction*> actions_;
   PictureCanvas* picture_ = nullptr;

@@ -9,9 +9,12 @@
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QVBoxLayout>
+#include <QVariant>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "src/draw/style.h"
 #include "src/joint_relation.h"
 #include "ui/window/main_window.h"
 #include "ui/window/picture_canvas.h"
@@ -31,6 +34,18 @@ QString StateText(const LandmarkLabel* label) {
       return MainWindow::tr("absent");
   }
   return {};
+}
+
+// That of errors, the stronger the farther the pose is off for a label as sure as this one; that of
+// any text where it is near.
+QVariant ResidualColor(std::optional<double> sigmas) {
+  constexpr double kNear = 1.0, kFar = 3.0, kFaint = 0.5;
+  if (sigmas.value_or(0.0) <= kNear) return {};
+  const cv::Scalar& error = palette::kError;
+  QColor color(static_cast<int>(error[2]), static_cast<int>(error[1]), static_cast<int>(error[0]));
+  const double part = std::min(1.0, (*sigmas - kNear) / (kFar - kNear));
+  color.setAlphaF(static_cast<float>(kFaint + (1.0 - kFaint) * part));
+  return color;
 }
 
 }  // namespace
@@ -139,11 +154,14 @@ void MainWindow::ShowJoints() {
   while (joints_->count() < static_cast<int>(layout.landmarks.size())) joints_->addItem("");
   for (size_t l = 0; l < layout.landmarks.size(); ++l) {
     const std::string_view name = layout.landmarks[l].name;
-    QString text = QString::fromUtf8(name.data(), static_cast<int>(name.size())).replace('_', ' ') +
+    QString text = QString("%1 ").arg(l + 1) +
+                   QString::fromUtf8(name.data(), static_cast<int>(name.size())).replace('_', ' ') +
                    ": " + StateText(person ? LabelSession::Find(*person, name) : nullptr);
     if (const auto residual_px = session_.Residual_px(name))
       text += tr(", %1 px").arg(*residual_px, 0, 'f', 1);
-    joints_->item(static_cast<int>(l))->setText(text);
+    QListWidgetItem* const item = joints_->item(static_cast<int>(l));
+    item->setText(text);
+    item->setData(Qt::ForegroundRole, ResidualColor(session_.ResidualInSigmas(name)));
   }
   joints_->setCurrentRow(session_.landmark());
 }

@@ -7,8 +7,10 @@
 #include <QPainter>
 #include <QPainterPath>
 #include <QWheelEvent>
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "src/draw/style.h"
 #include "ui/label/layout_edges.h"
@@ -76,6 +78,16 @@ void PictureCanvas::FullSize() {
   update();
 }
 
+void PictureCanvas::ZoomToBox() {
+  next_drag_is_box_ = true;
+  setCursor(Qt::SizeFDiagCursor);
+}
+
+void PictureCanvas::Mirror() {
+  view_.Mirror(width());
+  update();
+}
+
 Eigen::Vector2d PictureCanvas::ToPicture(const QPointF& x_in_widget) const {
   return view_.ToPicture({x_in_widget.x(), x_in_widget.y()});
 }
@@ -93,6 +105,10 @@ void PictureCanvas::paintEvent(QPaintEvent* /*event*/) {
   painter.fillRect(rect(), palette().color(QPalette::Dark));
   PaintAll(&painter, rect());
   if (shows_loupe && cursor_) PaintLoupe(&painter);
+  if (!box_) return;
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(palette().color(QPalette::Highlight), 1.5, Qt::DashLine));
+  painter.drawRect(*box_);
 }
 
 void PictureCanvas::PaintAll(QPainter* painter, const QRectF& window) const {
@@ -139,10 +155,25 @@ void PictureCanvas::PaintPicture(QPainter* painter, const QRectF& window) const 
   while (level + 1 < levels_.size() && std::pow(2.0, static_cast<double>(level + 1)) <= wanted)
     ++level;
   const QSizeF size = levels_.front().size();
-  const QRectF target(ToWidget(Eigen::Vector2d(-0.5, -0.5)), size * view_.scale());
-  const QRectF shown = target.intersected(window);
+  const Eigen::Vector2d last(size.width() - 0.5, size.height() - 0.5);
+  const QRectF seen = QRectF(ToWidget(Eigen::Vector2d(-0.5, -0.5)), ToWidget(last)).normalized();
+  painter->save();
+  if (view_.is_mirrored()) {
+    painter->translate(window.left() + window.right(), 0.0);
+    painter->scale(-1.0, 1.0);
+  }
+  const QRectF target =
+      view_.is_mirrored()
+          ? seen.translated(window.left() + window.right() - seen.left() - seen.right(), 0.0)
+          : seen;
+  PaintPiece(painter, target, target.intersected(window), levels_[level]);
+  painter->restore();
+}
+
+// A piece of a picture that would fill the target.
+void PictureCanvas::PaintPiece(QPainter* painter, const QRectF& target, const QRectF& shown,
+                               const QImage& image) const {
   if (shown.isEmpty()) return;
-  const QImage& image = levels_[level];
   const double x_scale = image.width() / target.width(), y_scale = image.height() / target.height();
   const QRectF source((shown.left() - target.left()) * x_scale,
                       (shown.top() - target.top()) * y_scale, shown.width() * x_scale,
@@ -200,20 +231,34 @@ void PictureCanvas::PaintLabels(QPainter* painter, const PersonLabels& person,
   painter->setOpacity(1.0);
 }
 
-// Where the pose has the joints, and how far that is from the labels.
+// Where the pose has the joints.
 void PictureCanvas::PaintPose(QPainter* painter) const {
   const LiftedPose* pose = session_->pose();
   if (!pose) return;
   const Eigen::Matrix2Xd joints_px = pose->camera.Project(pose->joints_in_cam_m);
-  for (int j = 1; j < kNumJoints; ++j) {
-    const int before = Joints()[static_cast<size_t>(j)].parent;
-    if (!joints_px.col(j).allFinite() || !joints_px.col(before).allFinite()) continue;
-    QPainterPath bone(ToWidget(joints_px.col(before)));
-    bone.lineTo(ToWidget(joints_px.col(j)));
-    painter->setOpacity(0.55);
-    StrokeTwice(painter, bone, ColorFrom(ColorOf(SideOf(j))), 4.0);
-  }
+  painter->setOpacity(0.65);
+  for (int j = 1; j < kNumJoints; ++j) PaintBone(painter, j, joints_px, pose->joints_in_cam_m);
   painter->setOpacity(1.0);
+  PaintResiduals(painter);
+}
+
+// The bone that ends at a joint: near it is broad and bright, far away thin and dark.
+void PictureCanvas::PaintBone(QPainter* painter, int joint, const Eigen::Matrix2Xd& joints_px,
+                              const Pose3& joints_m) const {
+  constexpr double kFar_m = 0.6, kBroad = 6.0, kThin = 2.0, kDark = 0.6;
+  const int before = Joints()[static_cast<size_t>(joint)].parent;
+  if (!joints_px.col(joint).allFinite() || !joints_px.col(before).allFinite()) return;
+  QPainterPath bone(ToWidget(joints_px.col(before)));
+  bone.lineTo(ToWidget(joints_px.col(joint)));
+  const double depth_m = (joints_m(2, joint) + joints_m(2, before)) / 2.0;
+  const double far = std::clamp(0.5 + 0.5 * depth_m / kFar_m, 0.0, 1.0);
+  StrokeTwice(painter, bone, ColorFrom(Mixed(ColorOf(SideOf(joint)), palette::kInk, kDark * far)),
+              kBroad + far * (kThin - kBroad));
+}
+
+// From the labels to where the pose has them.
+void PictureCanvas::PaintResiduals(QPainter* painter) const {
+  const LiftedPose* pose = session_->pose();
   for (const ObservedPoint& point : session_->observation().points) {
     if (point.kind != ObservedPoint::Kind::k2D) continue;
     const Eigen::Vector3d x_m = SumOfJoints(point.parts, pose->joints_in_cam_m);
@@ -229,6 +274,8 @@ void PictureCanvas::mousePressEvent(QMouseEvent* event) {
   if (event->button() == Qt::MiddleButton ||
       (event->button() == Qt::LeftButton && space_is_down_)) {
     panned_from_ = event->position();
+  } else if (event->button() == Qt::LeftButton && next_drag_is_box_) {
+    box_ = QRectF(event->position(), QSizeF());
   } else if (event->button() == Qt::LeftButton) {
     pressed_at_ = event->position();
     if (event->modifiers() & Qt::ControlModifier)
@@ -237,8 +284,10 @@ void PictureCanvas::mousePressEvent(QMouseEvent* event) {
       session_->Press(ToPicture(event->position()), Reach_px());
     emit Changed();
   } else if (event->button() == Qt::RightButton) {
-    session_->CycleStateAt(ToPicture(event->position()), Reach_px());
-    emit Changed();
+    if (session_->CycleStateAt(ToPicture(event->position()), Reach_px()))
+      emit Changed();
+    else
+      panned_from_ = event->position();
   }
 }
 
@@ -253,6 +302,9 @@ void PictureCanvas::mouseMoveEvent(QMouseEvent* event) {
     is_fitted_ = false;
     panned_from_ = event->position();
     update();
+  } else if (box_) {
+    box_->setBottomRight(event->position());
+    update();
   } else if (event->buttons() & Qt::LeftButton) {
     session_->Move(x_px);
     emit Changed();
@@ -262,11 +314,25 @@ void PictureCanvas::mouseMoveEvent(QMouseEvent* event) {
 void PictureCanvas::mouseReleaseEvent(QMouseEvent* event) {
   if (panned_from_) {
     panned_from_.reset();
+  } else if (box_) {
+    FitBox(std::exchange(box_, std::nullopt)->normalized());
   } else if (event->button() == Qt::LeftButton) {
     pressed_at_.reset();
     session_->Release();
     emit Changed();
   }
+}
+
+void PictureCanvas::FitBox(const QRectF& box) {
+  constexpr double kSmallest = 4.0;  // a click draws no box
+  next_drag_is_box_ = false;
+  setCursor(Qt::CrossCursor);
+  if (box.width() >= kSmallest && box.height() >= kSmallest) {
+    view_.FitBox(ToPicture(box.topLeft()), ToPicture(box.bottomRight()),
+                 Eigen::Vector2d(width(), height()));
+    is_fitted_ = false;
+  }
+  update();
 }
 
 // In the picture; while Shift is held, ten times nearer to where the button was pressed.
@@ -294,10 +360,15 @@ void PictureCanvas::wheelEvent(QWheelEvent* event) {
 }
 
 void PictureCanvas::keyPressEvent(QKeyEvent* event) {
-  if (event->key() == Qt::Key_Space)
+  const bool is_digit = event->key() >= Qt::Key_0 && event->key() <= Qt::Key_9;
+  if (event->key() == Qt::Key_Space) {
     space_is_down_ = true;
-  else
+  } else if (is_digit && event->modifiers() == Qt::NoModifier) {
+    session_->TypeDigit(event->key() - Qt::Key_0, static_cast<double>(event->timestamp()) / 1e3);
+    emit Changed();
+  } else {
     QWidget::keyPressEvent(event);
+  }
 }
 
 void PictureCanvas::keyReleaseEvent(QKeyEvent* event) {

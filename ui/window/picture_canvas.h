@@ -17,8 +17,8 @@ namespace poselift {
 
 // The picture at hand with its labels and the pose that answers them. Left places and drags,
 // right cycles a landmark's state, middle (or space and left) pans, the wheel zooms at the cursor.
-// With Shift the mouse drags ten times finer; with Ctrl it moves all of the person, the wheel
-// turns it, and with Shift too scales it.
+// Right pans too where no label is. With Shift the mouse drags ten times finer; with Ctrl it moves
+// all of the person, the wheel turns it, and with Shift too scales it.
 class PictureCanvas : public QWidget {
   Q_OBJECT
 
@@ -30,6 +30,8 @@ class PictureCanvas : public QWidget {
   void Zoom(double factor);  // about the cursor, or the middle
   void Fit();
   void FullSize();
+  void ZoomToBox();  // the next drag of the left button draws what is to be seen
+  void Mirror();     // left and right of what is shown
   // What is shown over the picture.
   bool shows_labels = true, shows_edges = true, shows_skeleton = true, shows_loupe = false;
   PictureLook look;
@@ -59,17 +61,24 @@ class PictureCanvas : public QWidget {
   Eigen::Vector2d Fine(const QMouseEvent& event) const;
   void PaintAll(QPainter* painter, const QRectF& window) const;
   void PaintPicture(QPainter* painter, const QRectF& window) const;
+  void PaintPiece(QPainter* painter, const QRectF& target, const QRectF& shown,
+                  const QImage& image) const;
   void PaintLoupe(QPainter* painter);
+  void FitBox(const QRectF& box);
+  void PaintPose(QPainter* painter) const;
+  void PaintBone(QPainter* painter, int joint, const Eigen::Matrix2Xd& joints_px,
+                 const Pose3& joints_m) const;
+  void PaintResiduals(QPainter* painter) const;
   void PaintEdges(QPainter* painter, const PersonLabels& person, bool is_at_hand) const;
   void PaintLabels(QPainter* painter, const PersonLabels& person, bool is_at_hand) const;
-  void PaintPose(QPainter* painter) const;
 
   LabelSession* session_;
   std::vector<QImage> levels_;  // of the picture, each half as large as the one before
   ViewTransform view_;
   bool is_fitted_ = true;
   std::optional<QPointF> panned_from_, pressed_at_, cursor_;
-  bool space_is_down_ = false;
+  bool space_is_down_ = false, next_drag_is_box_ = false;
+  std::optional<QRectF> box_;  // that is being drawn
 };
 
 }  // namespace poselift

@@ -35,8 +35,11 @@ void Timeline::paintEvent(QPaintEvent* /*event*/) {
   part.setAlphaF(0.4F);
   for (size_t f = 0; f < frames.size(); ++f) {
     if (session_->person_index() >= frames[f].people.size()) continue;
-    const size_t num_labels = frames[f].people[session_->person_index()].landmarks.size();
-    if (num_labels > 0) painter.fillRect(tick(f), num_labels < count ? part : full);
+    const PersonLabels& person = frames[f].people[session_->person_index()];
+    const size_t num_labels = person.landmarks.size();
+    QRectF mark = tick(f);
+    if (person.is_propagated) mark.setTop(kHeight / 2.0);
+    if (num_labels > 0) painter.fillRect(mark, num_labels < count ? part : full);
   }
   painter.setPen(palette().color(QPalette::Text));
   painter.drawRect(tick(session_->frame_index()).adjusted(0.0, 0.0, 0.0, -1.0));

@@ -9,7 +9,8 @@
 namespace poselift {
 
 // All frames side by side: which of them have labels, of the person at hand all (solid) or some
-// (faint), and which one is shown. A click goes to a frame.
+// (faint), placed by a person (a key frame: full height) or followed (low), and which one is
+// shown. A click goes to a frame.
 class Timeline : public QWidget {
   Q_OBJECT
 

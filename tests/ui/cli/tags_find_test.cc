@@ -13,6 +13,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "src/io/body_tags_toml.h"
 #include "src/io/camera_yaml.h"
 #include "src/io/video.h"
 #include "src/tag_detection.h"
@@ -58,6 +59,7 @@ TEST(TagsFind, CornersAreThoseOfTheTruthAndPosesSeeThemThere) {
   const nlohmann::json truth =
       nlohmann::json::parse(std::ifstream(Sample("truth.json"))).at("frames").at(0).at("tags");
   const Camera camera = ReadCameraYaml(Sample("camera.yaml"));
+  const BodyTags worn = ReadBodyTags(Sample("tags.toml"));
   const nlohmann::json line = Find("poselift");
   EXPECT_EQ(line.at("axes"), "poselift");
   ASSERT_GT(line.at("tags").size(), 5U);
@@ -65,7 +67,7 @@ TEST(TagsFind, CornersAreThoseOfTheTruthAndPosesSeeThemThere) {
     const int id = tag.at("id");
     ASSERT_TRUE(truth.contains(std::to_string(id))) << id;
     const Eigen::Isometry3d cam_from_tag = PoseOf(tag.at("poses").at(0));
-    const auto corners_m = TagCorners_m(0.07);
+    const auto corners_m = TagCorners_m(worn.Find(id)->size_m);
     for (int k = 0; k < 4; ++k) {
       const auto true_px = truth.at(std::to_string(id)).at(k).get<std::vector<double>>();
       const auto found_px = tag.at("corners_px").at(k).get<std::vector<double>>();
@@ -80,7 +82,8 @@ TEST(TagsFind, CornersAreThoseOfTheTruthAndPosesSeeThemThere) {
 
 TEST(TagsFind, AxesOfApriltagRosAreTurnedByHalfATurnAboutX) {
   std::map<int, Eigen::Isometry3d> ours;
-  for (const nlohmann::json& tag : Find("poselift").at("tags"))
+  const nlohmann::json in_ours = Find("poselift");
+  for (const nlohmann::json& tag : in_ours.at("tags"))
     ours[tag.at("id")] = PoseOf(tag.at("poses").at(0));
   const nlohmann::json line = Find("apriltag_ros");
   ASSERT_EQ(line.at("tags").size(), ours.size());

@@ -30,9 +30,9 @@ TEST(KeyMap, EachActionHasADescriptionAndKeysOfItsOwn) {
 
 TEST(KeyMap, AFileChangesWhatItNames) {
   const KeyMap map = KeyMap::Read(
-      WriteScratch("keys.toml", "swap_sides = 'M'\ncycle_state = ['O', 'Y']\nhelp = []\n"));
+      WriteScratch("keys.toml", "swap_sides = 'M'\ncycle_state = ['O', 'W']\nhelp = []\n"));
   EXPECT_EQ(map.Text(Action::kSwapSides), "M");
-  EXPECT_EQ(map.Text(Action::kCycleState), "O, Y");
+  EXPECT_EQ(map.Text(Action::kCycleState), "O, W");
   EXPECT_EQ(map.Text(Action::kHelp), "");
   EXPECT_EQ(map.Text(Action::kSave), "Ctrl+S");
 }

@@ -44,7 +44,7 @@ const LandmarkLabel& At(const Labels& labels, std::string_view landmark) {
   return *FindLandmark(labels, kPerson, landmark);
 }
 
-TEST(LabelEdits, PlaceAddsPersonAndLandmarkAndKeepsTheRadius) {
+TEST(LabelEdits, PlaceAddsPersonAndLandmarkAndForgetsTheRadius) {
   const LabelEdit edit = PlaceLandmark(TwoKnees(), {1, 0}, "left_knee", {1.5, 2.5});
   EXPECT_EQ(edit.name, "place left knee");
   const Labels labels = After(TwoKnees(), edit);
@@ -53,7 +53,7 @@ TEST(LabelEdits, PlaceAddsPersonAndLandmarkAndKeepsTheRadius) {
 
   const Labels again = After(TwoKnees(), PlaceLandmark(TwoKnees(), kPerson, "right_knee", {1, 2}));
   EXPECT_EQ(At(again, "right_knee").state, LabelState::kVisible);
-  EXPECT_EQ(At(again, "right_knee").radius_px, 2.0);
+  EXPECT_EQ(At(again, "right_knee").radius_px, std::nullopt);
   EXPECT_THROW(PlaceLandmark(TwoKnees(), kPerson, "left_wing", {1, 2}), std::invalid_argument);
   EXPECT_THROW(PlaceLandmark(TwoKnees(), {2, 0}, "nose", {1, 2}), std::out_of_range);
 }

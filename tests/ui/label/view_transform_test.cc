@@ -32,6 +32,7 @@ TEST(ViewTransform, ThePointUnderTheCursorStaysWhereverItIsZoomed) {
       const double tolerance = 1e-9 * (1.0 + x_px.norm());
       RC_ASSERT(MatrixNear(view.ToPicture(cursor), x_px, tolerance));
       view.Pan(Point(-300.0, 300.0));
+      if (*rc::gen::inRange(0, 4) == 0) view.Mirror(1280.0);
     }
     RC_ASSERT(view.scale() >= ViewTransform::kLeastScale);
     RC_ASSERT(view.scale() <= ViewTransform::kLargestScale);
@@ -43,9 +44,22 @@ TEST(ViewTransform, ToWidgetAndToPictureAreInverse) {
     ViewTransform view;
     view.ZoomAt(Point(0.0, 500.0), Between(0.1, 10.0));
     view.Pan(Point(-500.0, 500.0));
+    if (*rc::gen::arbitrary<bool>()) view.Mirror(900.0);
     const Eigen::Vector2d x_px = Point(-100.0, 8000.0);
     RC_ASSERT(MatrixNear(view.ToPicture(view.ToWidget(x_px)), x_px, 1e-8));
   }));
+}
+
+TEST(ViewTransform, MirroredIsTheSameFromTheOtherSide) {
+  ViewTransform view;
+  view.Fit({4000, 2000}, {800, 600});
+  const Eigen::Vector2d before = view.ToWidget({100, 50});
+  view.Mirror(800);
+  EXPECT_TRUE(
+      MatrixNear(view.ToWidget({100, 50}), Eigen::Vector2d(800 - before.x(), before.y()), 1e-9));
+  view.FitBox({100, 50}, {300, 150}, {800, 600});
+  EXPECT_TRUE(view.is_mirrored());
+  EXPECT_TRUE(MatrixNear(view.ToWidget({199.5, 99.5}), Eigen::Vector2d(400, 300), 2.1));
 }
 
 TEST(ViewTransform, FitShowsAllOfThePictureInTheMiddle) {

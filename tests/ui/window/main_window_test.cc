@@ -146,10 +146,61 @@ TEST_F(MainWindowTest, AVideoIsLabelledAlongItsTimeline) {
   EXPECT_NE(picture->grab().toImage(), first);
   const QImage before = timeline->grab().toImage();
   QTest::mouseClick(picture, Qt::LeftButton, {}, {300, 200});
+  QTest::mouseClick(picture, Qt::LeftButton, {}, {340, 330});
   EXPECT_NE(timeline->grab().toImage(), before);
   window.findChild<QAction*>("next_frame")->trigger();
   window.findChild<QAction*>("copy_previous")->trigger();
-  EXPECT_EQ(clip.labels().frames[46].people.at(0).landmarks.size(), 1U);
+  EXPECT_EQ(clip.labels().frames[46].people.at(0).landmarks.size(), 2U);
+  window.findChild<QAction*>("follow_forwards")->trigger();
+  window.session().WaitUntilFollowed();
+  EXPECT_TRUE(clip.labels().frames[60].people.at(0).is_propagated);
+  EXPECT_TRUE(clip.labels().frames[40].people.empty());
+  window.findChild<QAction*>("follow_backwards")->trigger();
+  window.session().WaitUntilFollowed();
+  EXPECT_TRUE(clip.labels().frames[40].people.empty());  // 45 is a key picture
+  window.findChild<QAction*>("follow_all")->trigger();
+  window.session().WaitUntilFollowed();
+  EXPECT_TRUE(clip.labels().frames[40].people.at(0).is_propagated);
+  EXPECT_FALSE(clip.labels().frames[45].people.at(0).is_propagated);
+}
+
+TEST_F(MainWindowTest, ABoxIsDrawnAndSeen) {
+  QTest::keyClick(window_.get(), Qt::Key_Z);
+  const Eigen::Vector2d middle_px = picture_->view().ToPicture({200.0, 150.0});
+  const double scale = picture_->view().scale();
+  QTest::mousePress(picture_, Qt::LeftButton, {}, {150, 100});
+  QTest::mouseMove(picture_, {250, 200});
+  QTest::mouseRelease(picture_, Qt::LeftButton, {}, {250, 200});
+  EXPECT_GT(picture_->view().scale(), 2.0 * scale);
+  EXPECT_TRUE(testing::MatrixNear(
+      picture_->view().ToPicture({picture_->width() / 2.0, picture_->height() / 2.0}), middle_px,
+      1.0));
+  EXPECT_TRUE(project_->labels().frames[0].people.empty());
+}
+
+TEST_F(MainWindowTest, MirroredItIsLabelledJustAsWell) {
+  QTest::keyClick(window_.get(), Qt::Key_M, Qt::ShiftModifier);
+  EXPECT_TRUE(picture_->view().is_mirrored());
+  QTest::mouseClick(picture_, Qt::LeftButton, {}, At(Label("pelvis")));
+  EXPECT_LT((Landmarks()[0].x_px - Label("pelvis").x_px).norm(), 1.0);
+  const QImage mirrored = picture_->grab().toImage();
+  QTest::keyClick(window_.get(), Qt::Key_M, Qt::ShiftModifier);
+  EXPECT_NE(picture_->grab().toImage(), mirrored);
+}
+
+TEST_F(MainWindowTest, DigitsGoToTheJointOfTheNumber) {
+  QTest::keyClick(picture_, Qt::Key_1);
+  QTest::keyClick(picture_, Qt::Key_2);
+  EXPECT_EQ(window_->session().landmark(), 11);
+}
+
+TEST_F(MainWindowTest, TheRightButtonPansWhereNoJointIs) {
+  const Eigen::Vector2d before = picture_->view().offset_in_widget();
+  QTest::mousePress(picture_, Qt::RightButton, {}, {300, 200});
+  QTest::mouseMove(picture_, {320, 230});
+  QTest::mouseRelease(picture_, Qt::RightButton, {}, {320, 230});
+  EXPECT_TRUE(testing::MatrixNear(picture_->view().offset_in_widget(),
+                                  before + Eigen::Vector2d(20, 30), 1e-9));
 }
 
 TEST_F(MainWindowTest, AFlippedLegIsAHintThatADoubleClickForgets) {

@@ -6,7 +6,9 @@
 // each state shows something that the one before does not.
 #include <gtest/gtest.h>
 
+#include <QApplication>
 #include <QCursor>
+#include <QPalette>
 #include <QTest>
 #include <cstdlib>
 
@@ -55,12 +57,19 @@ TEST_F(Screenshots, AreTaken) {
   window_->session().WaitUntilSolved();
   window_->Refresh();
   Take("label-flipped");
-  QTest::keyClick(window_.get(), Qt::Key_Z);
+  QTest::keyClick(window_.get(), Qt::Key_Q);
   QTest::mouseMove(picture_, At(Label("right_knee")));
   Take("label-loupe");
   window_->findChild<QWidget*>("look_dock")->show();
   window_->findChild<QSlider*>("gamma")->setValue(40);
   Take("label-look");
+  window_->findChild<QWidget*>("look_dock")->hide();
+  const QPalette light = QApplication::palette();
+  QPalette dark(QColor(53, 53, 53));
+  dark.setColor(QPalette::Base, QColor(35, 35, 35));
+  QApplication::setPalette(dark);
+  Take("label-dark");
+  QApplication::setPalette(light);
 }
 
 }  // namespace
