@@ -59,8 +59,8 @@ class RangeSource : public FrameSource {
                      .time_s = Time_s(labels_, next_)};
     frame.bgr = pictures_.Read(labels_.frames[next_]);
     if (frame.bgr.empty())
-      throw InputError(fmt::format("found no picture {}, wanted one to follow labels through",
-                                   next_ + 1));
+      throw InputError(
+          fmt::format("found no picture {}, wanted one to follow labels through", next_ + 1));
     ++next_;
     return frame;
   }
