@@ -53,11 +53,11 @@ Motion OnTheSpot(Motion motion) {
   return motion;
 }
 
-Camera Webcam() {
+Camera Webcam(double focal_px) {
   return {.width_px = 1280,
           .height_px = 720,
-          .fx_px = 900,
-          .fy_px = 900,
+          .fx_px = focal_px,
+          .fy_px = focal_px,
           .cx_px = 643,
           .cy_px = 356,
           .distortion = {.k1 = -0.06, .k2 = 0.03, .p1 = 0.0005, .p2 = -0.0003}};

@@ -25,8 +25,8 @@ struct PlacedCamera {
   Eigen::Isometry3d cam_from_world;
 };
 
-// A webcam: 1280 x 720, focal length 900 px, a barrel of some pixels in the corners.
-Camera Webcam();
+// A webcam: 1280 x 720, a barrel of some pixels in the corners. A longer focal length is a zoom's.
+Camera Webcam(double focal_px = 900.0);
 
 // A level camera at the height of the pelvis, so far from where the pelvis is on
 // average, on the side that it faces on average, turned by azimuth about the body,

@@ -208,10 +208,11 @@ int Evaluate(const Options& options) {
       rows.push_back(std::move(row));
   const TrackExperimentOptions& experiment = options.experiment;
   fmt::print(
-      "rendered at {:g} m, 1280 x 720, tags {}, exposure {:.1f} ms, noise {:g} grey "
+      "rendered at {:g} m, 1280 x 720, focal length {:g} px, tags {}, exposure {:.1f} ms, noise "
+      "{:g} grey "
       "levels; tags {:g} mm and {:.1f} degrees off what is said; seed {}\n",
-      experiment.distance_m, NameOf(experiment.worn), 1e3 * experiment.exposure_s,
-      experiment.noise_grey_levels, 1e3 * experiment.misplaced_m,
+      experiment.distance_m, experiment.focal_px, NameOf(experiment.worn),
+      1e3 * experiment.exposure_s, experiment.noise_grey_levels, 1e3 * experiment.misplaced_m,
       experiment.misplaced_rad * 180.0 / 3.14159265, experiment.seed);
   Print(rows);
   if (!options.json.empty()) WriteJson(rows, options);
@@ -234,7 +235,12 @@ CLI::App* AddEvaluateTrack(CLI::App* app, Run* run) {
       ->capture_default_str();
   TrackExperimentOptions& experiment = options->experiment;
   command->add_option("--distance-m", experiment.distance_m, "Of the camera")
-      ->check(IsNumber(1.0, 10.0))
+      ->check(IsNumber(1.0, 30.0))
+      ->capture_default_str();
+  command
+      ->add_option("--focal-px", experiment.focal_px,
+                   "Of the camera: 300 a metre of distance show the body as large as 3 m do")
+      ->check(IsNumber(300.0, 10000.0))
       ->capture_default_str();
   command->add_option("--tag-size-m", experiment.tag_size_m, "Of all tags but the printed")
       ->check(IsNumber(0.01, 0.3))

@@ -178,7 +178,8 @@ TaggedVideo RenderTagged(const Motion& motion, const BodyTags& worn,
                          const TrackExperimentOptions& options, const ProgressFn& progress) {
   const TagFamily family(worn.family);
   const Motion walk = testing::OnTheSpot(motion);
-  const testing::PlacedCamera placed = testing::CameraBefore(walk, options.distance_m);
+  const testing::PlacedCamera placed =
+      testing::CameraBefore(walk, options.distance_m, 0.0, testing::Webcam(options.focal_px));
   const testing::BodyRenderer renderer(
       walk.skeleton, worn,
       [&](int id) {

@@ -26,6 +26,7 @@ enum class TagsWorn {
 // Captured motions rendered with tags on the body, then detected and tracked like any video.
 struct TrackExperimentOptions {
   double distance_m = 3.0;
+  double focal_px = 900.0;  // at 1280 x 720
   double tag_size_m = 0.08;
   TagsWorn worn = TagsWorn::kFront;
   double exposure_s = 1.0 / 120.0;

@@ -44,6 +44,31 @@ TEST_F(MainWindowTest, FifteenClicksLiftTheSampleAsTheProgramDoes) {
     EXPECT_EQ(FileText(folder_ / "window" / name), FileText(folder_ / "program" / name)) << name;
 }
 
+// A real photo, labelled end to end: joints are chosen in the list, hidden ones said to be so.
+TEST_F(MainWindowTest, TheSkierIsLabelledAndExportedAsTheProgramLiftsIt) {
+  POSELIFT_DATA_OR_SKIP(data);
+  OpenOn(data / "photos/skier.jpg", ReadLabels(data / "photos/skier.coco.json"));
+  auto* const joints = window_->findChild<QListWidget*>("joints");
+  int num_placed = 0;
+  for (const LandmarkLabel& label : person_.landmarks) {
+    if (label.state == LabelState::kAbsent) continue;
+    joints->setCurrentRow(*FindLayout(layout_)->Find(label.name));
+    QTest::mouseClick(picture_, Qt::LeftButton, {}, At(label));
+    if (label.state == LabelState::kOccluded)
+      QTest::mouseClick(picture_, Qt::RightButton, {}, At(label));
+    ++num_placed;
+  }
+  EXPECT_EQ(std::ssize(Landmarks()), num_placed);
+  window_->session().WaitUntilSolved();
+  ASSERT_NE(window_->session().pose(), nullptr);
+  QTest::keyClick(window_.get(), Qt::Key_S, Qt::ControlModifier);
+  window_->ExportTo(QString::fromStdString((folder_ / "window").string()));
+  const auto run =
+      RunProgram("lift " + copy_.string() + " --out " + (folder_ / "program").string());
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(FileText(folder_ / "window/poses.bvh"), FileText(folder_ / "program/poses.bvh"));
+}
+
 TEST_F(MainWindowTest, ADragMovesAJointAndUndoTakesItBack) {
   ClickAll();
   const Eigen::Vector2d before_px =

@@ -32,17 +32,24 @@ class SampleWindow : public ::testing::Test {
   void SetUp() override {
     folder_ = ScratchDir();
     const fs::path samples = SourcePath("samples/photo");
-    fs::copy_file(samples / "kick.jpg", folder_ / "kick.jpg", fs::copy_options::overwrite_existing);
-    for (const char* left : {"kick.labels.json", ".kick.labels.json.journal"})
-      fs::remove(folder_ / left);
-    person_ = ReadLabels(samples / "kick.labels.json").frames[0].people[0];
+    OpenOn(samples / "kick.jpg", ReadLabels(samples / "kick.labels.json"));
+  }
+
+  // On a copy of a picture without labels, to be labelled as these are.
+  void OpenOn(const fs::path& picture, const Labels& labels) {
+    copy_ = folder_ / picture.filename();
+    fs::copy_file(picture, copy_, fs::copy_options::overwrite_existing);
+    const std::string file = picture.stem().string() + ".labels.json";
+    for (const std::string& left : {file, "." + file + ".journal"}) fs::remove(folder_ / left);
+    person_ = labels.frames[0].people[0];
+    layout_ = labels.layout;
     Open();
   }
 
   void Open() {
     window_.reset();
     project_.reset();
-    file_ = FindLabelsFile({(folder_ / "kick.jpg").string()}, "", "body15");
+    file_ = FindLabelsFile({copy_.string()}, "", layout_);
     project_ = std::make_unique<LabelProject>(file_);
     window_ = std::make_unique<MainWindow>(project_.get(), lifter_, KeyMap());
     window_->show();
@@ -59,7 +66,7 @@ class SampleWindow : public ::testing::Test {
   }
   // In the layout's order, as the window asks for them.
   void ClickAll() {
-    for (const Landmark& landmark : FindLayout("body15")->landmarks)
+    for (const Landmark& landmark : FindLayout(layout_)->landmarks)
       QTest::mouseClick(picture_, Qt::LeftButton, {}, At(Label(landmark.name)));
   }
   const std::vector<LandmarkLabel>& Landmarks() const {
@@ -69,7 +76,8 @@ class SampleWindow : public ::testing::Test {
   Dictionary dictionary_ = ReadDictionary(DefaultDictionaryPath());
   PhotoLifter lifter_{dictionary_};
   PersonLabels person_;
-  fs::path folder_, file_;
+  fs::path folder_, copy_, file_;
+  std::string layout_;
   std::unique_ptr<LabelProject> project_;
   std::unique_ptr<MainWindow> window_;
   PictureCanvas* picture_ = nullptr;
