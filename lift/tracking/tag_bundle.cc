@@ -110,9 +110,9 @@ std::string TagFitOptions::Validate() const {
   if (num_frames < 2)
     return fmt::format("TagFitOptions::num_frames = {}, wanted at least 2", num_frames);
   if (rounds < 1) return fmt::format("TagFitOptions::rounds = {}, wanted at least 1", rounds);
-  if (!(corner_sigma_px > 0.0 && loss > 0.0 && prior_weight >= 0.0 && least_sigma_m > 0.0 &&
-        least_sigma_rad > 0.0))
-    return "TagFitOptions: sigmas and loss are above 0, prior_weight is not below";
+  if (!(corner_sigma_px > 0.0 && loss > 0.0 && prior_weight >= 0.0 && depth_sigma >= 0.0 &&
+        least_sigma_m > 0.0 && least_sigma_rad > 0.0))
+    return "TagFitOptions: sigmas and loss are above 0, prior_weight and depth_sigma are not below";
   return "";
 }
 
@@ -123,6 +123,14 @@ TagBundle::TagBundle(const Skeleton& standard, const PosePrior& prior, const Cam
       camera_(camera),
       view_{camera.fx_px, Eigen::Isometry3d(cam_from_world)},
       options_(options) {}
+
+// As TagWhitening, of a tag whose mount is what is looked for.
+Eigen::Matrix<double, 8, 8> TagBundle::Whitening(const TagCorners& corners_px,
+                                                 double sigma_px) const {
+  const Eigen::Map<const Eigen::Matrix<double, 8, 1>> c(corners_px.data());
+  return InverseRoot<8>(sigma_px * sigma_px * Eigen::Matrix<double, 8, 8>::Identity() +
+                        options_.depth_sigma * options_.depth_sigma * c * c.transpose());
+}
 
 void TagBundle::AddFrame(PosedFrame* frame, ceres::Problem* problem) {
   SkeletonPose& pose = frame->pose;
@@ -137,7 +145,8 @@ void TagBundle::AddFrame(PosedFrame* frame, ceres::Problem* problem) {
                          .size_m = mount->second.said->size_m,
                          .corners_px = CornersWithoutLens(camera_, tag.detection.corners_px)};
     if (!picture.corners_px.allFinite()) continue;
-    picture.whitening /= CornerSigma_px(tag.detection, options_.corner_sigma_px);
+    picture.whitening =
+        Whitening(picture.corners_px, CornerSigma_px(tag.detection, options_.corner_sigma_px));
     problem->AddResidualBlock(MakeTagFitCost(standard_, view_, picture).release(),
                               new ceres::CauchyLoss(options_.loss), root, turn, dofs,
                               mount->second.t.data(), mount->second.R.coeffs().data(),

@@ -25,6 +25,7 @@ struct TagFitOptions {
   int num_frames = 100;  // that are adjusted together, as different as can be
   int rounds = 2;        // of tracking and adjusting
   double corner_sigma_px = 0.15;
+  double depth_sigma = 0.0;   // TagSigmas: of a camera that is guessed
   double loss = 6.0;          // Cauchy, as in TagTrackerOptions
   double prior_weight = 0.1;  // of the pose prior
   // Of a camera that nobody calibrated the focal length and k1 are found as well.
@@ -91,6 +92,7 @@ class TagBundle {
   double Rms_px(const std::vector<PosedFrame>& frames, int id) const;
 
  private:
+  Eigen::Matrix<double, 8, 8> Whitening(const TagCorners& corners_px, double sigma_px) const;
   void AddFrame(PosedFrame* frame, ceres::Problem* problem);
   void AddMount(TagMount* mount, ceres::Problem* problem);
   void FindCovariances(ceres::Problem* problem);

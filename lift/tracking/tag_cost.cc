@@ -216,18 +216,22 @@ TagCorners ProjectTag(const TagView& view, const Eigen::Isometry3d& cam_from_tag
 }
 
 Eigen::Matrix<double, 8, 8> TagWhitening(const TagView& view, const Eigen::Isometry3d& cam_from_tag,
-                                         double size_m, double sigma_px, double sigma_m,
-                                         double sigma_rad) {
+                                         double size_m, const TagSigmas& sigmas) {
   Eigen::Matrix<double, 8, 6> by_mount;
   const Eigen::Matrix<double, 3, 4> corners_m = TagCorners_m(size_m);
   for (int i = 0; i < 4; ++i) {
     const Matrix23 by_point =
         ProjectionByPoint(view, cam_from_tag * corners_m.col(i)) * cam_from_tag.linear();
-    by_mount.middleRows<2>(2 * i) << sigma_m * by_point,
-        -sigma_rad * by_point * Cross(corners_m.col(i));
+    by_mount.middleRows<2>(2 * i) << sigmas.mount_m * by_point,
+        -sigmas.mount_rad * by_point * Cross(corners_m.col(i));
   }
   Eigen::Matrix<double, 8, 8> covariance = by_mount * by_mount.transpose();
-  covariance.diagonal().array() += sigma_px * sigma_px;
+  covariance.diagonal().array() += sigmas.corner_px * sigmas.corner_px;
+  if (sigmas.depth > 0.0) {
+    const TagCorners corners_px = ProjectTag(view, cam_from_tag, size_m);
+    const Eigen::Map<const Eigen::Matrix<double, 8, 1>> c(corners_px.data());
+    covariance += sigmas.depth * sigmas.depth * c * c.transpose();
+  }
   return InverseRoot<8>(covariance);
 }
 

@@ -65,11 +65,21 @@ Eigen::Matrix<double, kSize, kSize> InverseRoot(
 // Where the corners are seen, NaN when one is not before the camera.
 TagCorners ProjectTag(const TagView& view, const Eigen::Isometry3d& cam_from_tag, double size_m);
 
-// The inverse square root of  sigma_px^2 I + J diag(sigma_m^2, sigma_rad^2) J^T,  J by small
-// shifts and turns of the tag where it is.
+// How little corners say.
+struct TagSigmas {
+  double corner_px = 0.15;
+  double mount_m = 0.0, mount_rad = 0.0;  // how the tag sits on its bone
+  // Of a camera whose focal length is a guess: the share of its distance by which a tag's depth
+  // behind the body's may be off. All its corners are then off by that share of their distance
+  // from the principal point.
+  double depth = 0.0;
+};
+
+// The inverse square root of
+//   corner^2 I + J diag(mount_m^2, mount_rad^2) J^T + depth^2 c c^T,
+// J by small shifts and turns of the tag where it is, c its corners from the principal point.
 Eigen::Matrix<double, 8, 8> TagWhitening(const TagView& view, const Eigen::Isometry3d& cam_from_tag,
-                                         double size_m, double sigma_px, double sigma_m,
-                                         double sigma_rad);
+                                         double size_m, const TagSigmas& sigmas);
 
 // Parameter blocks as in pose_costs.h: root_in_world_m, world_from_root, dofs. A corner
 // behind the camera fails the evaluation.

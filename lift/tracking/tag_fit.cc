@@ -147,7 +147,8 @@ TagFit FitTags(const std::vector<SightedFrame>& frames, const BodyTags& said, co
       if (progress) progress((round + fraction) / options.rounds);
     };
     TagTracker tracker(fit.skeleton, fit.tags, fit.camera, cam_from_world, lifter, codebook,
-                       {.filter = {.latency_s = kLatency_s, .variance_scale = 15.0}});
+                       {.filter = {.latency_s = kLatency_s, .variance_scale = 15.0},
+                        .depth_sigma = options.depth_sigma});
     posed = MostDifferent(Track(frames, &tracker, part), options.num_frames);
     fit.num_frames = static_cast<int>(posed.size());
     if (fit.num_frames < kLeastFrames) {

@@ -77,6 +77,8 @@ std::string TagTrackerOptions::Validate() const {
   if (const std::string error = filter.Validate(); !error.empty()) return error;
   if (!(corner_sigma_px > 0.0))
     return fmt::format("TagTrackerOptions::corner_sigma_px = {}, wanted > 0", corner_sigma_px);
+  if (!(depth_sigma >= 0.0))
+    return fmt::format("TagTrackerOptions::depth_sigma = {}, wanted >= 0", depth_sigma);
   if (!(prior_weight >= 0.0))
     return fmt::format("TagTrackerOptions::prior_weight = {}, wanted >= 0", prior_weight);
   if (!(loss > 0.0)) return fmt::format("TagTrackerOptions::loss = {}, wanted > 0", loss);
@@ -212,8 +214,8 @@ TagInPicture TagTracker::InPicture(const SeenTag& tag, const BoneFrames& frames)
   const double size_m = tag.worn->tag.size_m;
   return {tag.worn->bone, mount.bone_from_tag, size_m, tag.corners_px,
           TagWhitening(worn_.view(), cam_from_tag, size_m,
-                       CornerSigma_px(tag.sighting->detection, options_.corner_sigma_px),
-                       mount.sigma_m, mount.sigma_rad)};
+                       {CornerSigma_px(tag.sighting->detection, options_.corner_sigma_px),
+                        mount.sigma_m, mount.sigma_rad, options_.depth_sigma})};
 }
 
 // The joint as the tag has it; of the two ways it may lean, the one that is nearer.

@@ -36,6 +36,7 @@ class PoseProblem;
 struct TagTrackerOptions {
   MotionFilterOptions filter{.latency_s = 0.0, .variance_scale = 15.0};
   double corner_sigma_px = 0.15;
+  double depth_sigma = 0.0;  // TagSigmas: of a camera that is guessed
   double prior_weight = 1.5;
   double loss = 6.0;   // Cauchy: standard deviations of all a tag's corners together
   int least_tags = 3;  // for a pose out of nothing

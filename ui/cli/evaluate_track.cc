@@ -33,6 +33,7 @@ namespace poselift::cli {
 namespace {
 
 constexpr double kFrameTime_s = 1.0 / 30.0;
+constexpr double kGuessedDepthSigma = 0.03, kWeakDepthSigma = 0.1;
 constexpr double kWeakFov_deg = 1.0;  // from 250 m away
 
 // A trial that is tracked, and the movements its tags are fitted on.
@@ -132,23 +133,26 @@ std::vector<Row> RunTest(const Test& test, const PhotoLifter& lifter,
 
   std::vector<Row> rows;
   const double whole_share = WholeFramesShare(video.tagged);
-  const auto track = [&](const std::string& method, const BodyTags& tags, const Camera& camera) {
+  const auto track = [&](const std::string& method, const BodyTags& tags, const Camera& camera,
+                         double depth_sigma) {
     rows.push_back({method, test.action, test.trial, whole_share,
                     TrackVideo(video.tagged, video.motion.skeleton, video.dress.worn, tags, camera,
-                               lifter, codebook)});
+                               lifter, codebook, depth_sigma)});
   };
-  const auto fit = [&](const std::string& method, const Camera& start, bool finds_lens) {
+  const auto fit = [&](const std::string& method, const Camera& start, bool finds_lens,
+                       double depth_sigma) {
     Progress progress("fit " + test.trial);
-    const TagFit found = FitTags(SightFrames(fit_videos, said, start), said, start, kLevelFromCam,
-                                 lifter, codebook, {.finds_lens = finds_lens}, progress.Callback());
+    const TagFit found =
+        FitTags(SightFrames(fit_videos, said, start), said, start, kLevelFromCam, lifter, codebook,
+                {.depth_sigma = depth_sigma, .finds_lens = finds_lens}, progress.Callback());
     if (!found.is_usable) throw std::runtime_error(test.trial + ": " + found.message);
-    track(method, found.tags, found.camera);
+    track(method, found.tags, found.camera, depth_sigma);
   };
-  track("camera known, tags as said", said, known);
-  fit("camera known, tags fitted", known, false);
-  fit("camera found, tags fitted", guess, true);
-  fit("camera guessed, tags fitted", guess, false);
-  fit("weak perspective, tags fitted", weak, false);
+  track("camera known, tags as said", said, known, 0.0);
+  fit("camera known, tags fitted", known, false, 0.0);
+  fit("camera found, tags fitted", guess, true, 0.0);
+  fit("camera guessed, tags fitted", guess, false, kGuessedDepthSigma);
+  fit("weak perspective, tags fitted", weak, false, kWeakDepthSigma);
   return rows;
 }
 

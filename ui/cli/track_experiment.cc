@@ -220,8 +220,8 @@ std::vector<SightedFrame> SightFrames(const std::vector<const TaggedVideo*>& vid
 
 TrackErrors TrackVideo(const TaggedVideo& video, const Skeleton& captured, const BodyTags& worn,
                        const BodyTags& tags, const Camera& camera, const PhotoLifter& lifter,
-                       const std::shared_ptr<const MotionCodebook>& codebook) {
-  TagSession session(tags, camera, lifter, codebook, {});
+                       const std::shared_ptr<const MotionCodebook>& codebook, double depth_sigma) {
+  TagSession session(tags, camera, lifter, codebook, {.tracker = {.depth_sigma = depth_sigma}});
   ErrorSums sums(captured);
   DetectionSums detected;
   for (size_t t = 0; t < video.grey.size(); ++t) {

@@ -75,9 +75,9 @@ TaggedVideo RenderTagged(const Motion& motion, const BodyTags& worn,
 std::vector<SightedFrame> SightFrames(const std::vector<const TaggedVideo*>& videos,
                                       const BodyTags& tags, const Camera& camera);
 
-// By TagSession, as `track` does.
+// By TagSession, as `track` does. depth_sigma: TagSigmas.
 TrackErrors TrackVideo(const TaggedVideo& video, const Skeleton& captured, const BodyTags& worn,
                        const BodyTags& tags, const Camera& camera, const PhotoLifter& lifter,
-                       const std::shared_ptr<const MotionCodebook>& codebook);
+                       const std::shared_ptr<const MotionCodebook>& codebook, double depth_sigma);
 
 }  // namespace poselift::cli

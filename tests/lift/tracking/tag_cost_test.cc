@@ -125,12 +125,12 @@ TEST_F(TagCostTest, ATagBehindTheCameraCannotBeEvaluated) {
   EXPECT_FALSE(ProjectTag(view_, CamFromTag(), tag_.size_m).allFinite());
 }
 
-TEST_F(TagCostTest, WhitenedCornersOfLooseTagsHaveUnitVariance) {
+TEST_F(TagCostTest, WhitenedCornersOfLooseTagsAtGuessedDepthsHaveUnitVariance) {
   const TagView view{900.0, view_.cam_from_world};
   const Eigen::Isometry3d cam_from_tag = CamFromTag();
-  constexpr double kSigma_px = 0.3, kSigma_m = 0.004, kSigma_rad = 0.03;
+  constexpr double kSigma_px = 0.3, kSigma_m = 0.004, kSigma_rad = 0.03, kDepth = 0.02;
   const auto whitening =
-      TagWhitening(view, cam_from_tag, tag_.size_m, kSigma_px, kSigma_m, kSigma_rad);
+      TagWhitening(view, cam_from_tag, tag_.size_m, {kSigma_px, kSigma_m, kSigma_rad, kDepth});
   const TagCorners mean_px = ProjectTag(view, cam_from_tag, tag_.size_m);
   constexpr int kDraws = 4000;
   Eigen::Matrix<double, 8, 8> covariance = Eigen::Matrix<double, 8, 8>::Zero();
@@ -144,6 +144,7 @@ TEST_F(TagCostTest, WhitenedCornersOfLooseTagsHaveUnitVariance) {
     Eigen::Matrix<double, 8, 1> off;
     Eigen::Map<TagCorners>(off.data()) = ProjectTag(view, moved, tag_.size_m) - mean_px;
     for (double& value : off) value += kSigma_px * normal(rng_);
+    off += kDepth * normal(rng_) * Eigen::Map<const Eigen::Matrix<double, 8, 1>>(mean_px.data());
     const Eigen::Matrix<double, 8, 1> white = whitening * off;
     covariance += white * white.transpose() / kDraws;
   }
