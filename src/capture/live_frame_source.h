@@ -46,7 +46,7 @@ class LiveFrameSource : public FrameSource {
 
   // Ends the source: the frames that wait are given still, then nothing. May be called in a
   // handler of signals.
-  void Stop() { stop_ = true; }
+  void Stop() override { stop_ = true; }
   CaptureCounts counts() const;
   // What it was opened with: not to be read from.
   const CameraStream& camera() const { return stream_; }

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 the poselift authors
 #include "src/capture/paced_frame_source.h"
 
+#include <algorithm>
 #include <chrono>
-#include <thread>
 
 namespace poselift {
 namespace {
@@ -13,6 +13,19 @@ double Now_s() {
 }
 
 }  // namespace
+
+void PacedFrameSource::Stop() {
+  const std::lock_guard lock(mutex_);
+  stop_ = true;
+  stopped_.notify_all();
+}
+
+// False: it was stopped.
+bool PacedFrameSource::WaitUntil(double time_s) {
+  std::unique_lock lock(mutex_);
+  const std::chrono::duration<double> wait(std::max(0.0, time_s - Now_s()));
+  return !stopped_.wait_for(lock, wait, [this] { return stop_; });
+}
 
 std::optional<VideoFrame> PacedFrameSource::Next() {
   int num_lost = 0;
@@ -31,7 +44,7 @@ std::optional<VideoFrame> PacedFrameSource::Next() {
       late = std::move(frame);
       continue;
     }
-    if (now_s < due_s) std::this_thread::sleep_for(std::chrono::duration<double>(due_s - now_s));
+    if (!WaitUntil(due_s)) return std::nullopt;
     frame->monotonic_s = due_s;
     frame->num_lost += num_lost;
     return frame;

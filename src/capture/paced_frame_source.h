@@ -2,7 +2,9 @@
 // Copyright (c) 2026 the poselift authors
 #pragma once
 
+#include <condition_variable>
 #include <memory>
+#include <mutex>
 
 #include "src/io/frame_source.h"
 
@@ -18,11 +20,18 @@ class PacedFrameSource : public FrameSource {
   cv::Size size_px() const override { return source_->size_px(); }
   std::optional<VideoFrame> Next() override;
   std::optional<double> Skip_s() override { return source_->Skip_s(); }
+  void Stop() override;
 
  private:
+  bool WaitUntil(double time_s);
+
   std::unique_ptr<FrameSource> source_;
   double start_s_ = -1.0;  // of the clock, at time 0
   double last_s_ = 0.0;    // of the frame before
+
+  std::mutex mutex_;  // guards stop_
+  std::condition_variable stopped_;
+  bool stop_ = false;
 };
 
 }  // namespace poselift

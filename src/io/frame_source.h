@@ -39,6 +39,8 @@ class FrameSource {
   virtual std::optional<VideoFrame> Next() = 0;
   // Goes past the next frame, at less cost; its time, or nothing at the end.
   virtual std::optional<double> Skip_s() = 0;
+  // Of those that wait for their frames: any thread may call it, and soon Next gives nothing.
+  virtual void Stop() {}
 };
 
 }  // namespace poselift

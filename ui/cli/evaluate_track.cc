@@ -27,7 +27,7 @@
 #include "ui/cli/held_out_models.h"
 #include "ui/cli/progress.h"
 #include "ui/cli/track_experiment.h"
-#include "ui/cli/tracking_inputs.h"
+#include "ui/live/tracking_inputs.h"
 
 namespace poselift::cli {
 namespace {

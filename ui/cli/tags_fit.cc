@@ -22,12 +22,14 @@
 #include "src/io/atomic_file.h"
 #include "src/io/body_tags_toml.h"
 #include "src/io/camera_yaml.h"
+#include "ui/cli/camera_options.h"
 #include "ui/cli/frame_rate.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/progress.h"
-#include "ui/cli/tag_session.h"
 #include "ui/cli/tags.h"
-#include "ui/cli/tracking_inputs.h"
+#include "ui/cli/tracking_options.h"
+#include "ui/live/tag_session.h"
+#include "ui/live/tracking_inputs.h"
 
 namespace poselift::cli {
 namespace {

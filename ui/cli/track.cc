@@ -28,15 +28,17 @@
 #include "src/io/body_tags_toml.h"
 #include "src/io/poses_json.h"
 #include "src/io/udp_lines.h"
+#include "ui/cli/camera_options.h"
 #include "ui/cli/command.h"
 #include "ui/cli/frame_rate.h"
 #include "ui/cli/interrupt.h"
-#include "ui/cli/latency_meter.h"
 #include "ui/cli/progress.h"
-#include "ui/cli/tag_session.h"
-#include "ui/cli/track_recording.h"
-#include "ui/cli/track_video.h"
-#include "ui/cli/tracking_inputs.h"
+#include "ui/cli/tracking_options.h"
+#include "ui/live/latency_meter.h"
+#include "ui/live/tag_session.h"
+#include "ui/live/track_recording.h"
+#include "ui/live/track_video.h"
+#include "ui/live/tracking_inputs.h"
 
 namespace poselift::cli {
 namespace {

@@ -15,7 +15,7 @@
 #include "src/joint_angles.h"
 #include "src/testing/studio.h"
 #include "src/testing/tag_placement.h"
-#include "ui/cli/tag_session.h"
+#include "ui/live/tag_session.h"
 
 namespace poselift::cli {
 namespace {

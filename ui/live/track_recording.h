@@ -13,7 +13,7 @@
 #include "src/poses.h"
 #include "src/skeleton.h"
 
-namespace poselift::cli {
+namespace poselift {
 
 // What `track` writes while it runs: poses.json, angles.csv, angles_sigma.csv, poses.bvh.
 // Each is whole at every moment (growing_file.h) and has all frames that were added.
@@ -45,4 +45,4 @@ class TrackRecording {
   std::optional<Eigen::Vector3d> origin_in_world_m_;  // of the BVH
 };
 
-}  // namespace poselift::cli
+}  // namespace poselift

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the poselift authors
-#include "ui/cli/track_video.h"
+#include "ui/live/track_video.h"
 
 #include <span>
 #include <utility>
 
-namespace poselift::cli {
+namespace poselift {
 
 TrackVideo::TrackVideo(const std::filesystem::path& path, const RawFormat& format,
                        std::optional<double> before_s)
@@ -28,4 +28,4 @@ void TrackVideo::Start() {
   ring_.reset();
 }
 
-}  // namespace poselift::cli
+}  // namespace poselift

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the poselift authors
-#include "ui/cli/latency_meter.h"
+#include "ui/live/latency_meter.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace poselift::cli {
+namespace poselift {
 
 void LatencyMeter::Add(double time_s) {
   const double step = std::clamp(time_s / kStep_s, 0.0, static_cast<double>(counts_.size() - 1));
@@ -32,4 +32,4 @@ std::string LatencyMeter::QuantileText(double quantile) const {
                                 : fmt::format("{:.1f} ms", ms);
 }
 
-}  // namespace poselift::cli
+}  // namespace poselift

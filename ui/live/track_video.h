@@ -12,7 +12,7 @@
 #include "src/io/jpeg_frame.h"
 #include "src/io/video_recorder.h"
 
-namespace poselift::cli {
+namespace poselift {
 
 // The raw video of a camera, as its frames come: from the start or, with before_s, from so
 // long before Start.
@@ -34,4 +34,4 @@ class TrackVideo {
   std::optional<FrameRing> ring_;  // until Start
 };
 
-}  // namespace poselift::cli
+}  // namespace poselift

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the poselift authors
-#include "ui/cli/track_recording.h"
+#include "ui/live/track_recording.h"
 
 #include <cmath>
 #include <string>
@@ -13,7 +13,7 @@
 #include "src/joint_angles.h"
 #include "src/motion.h"
 
-namespace poselift::cli {
+namespace poselift {
 namespace {
 
 namespace fs = std::filesystem;
@@ -78,4 +78,4 @@ void TrackRecording::Close() {
   bvh_.Close();
 }
 
-}  // namespace poselift::cli
+}  // namespace poselift

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the poselift authors
-#include "ui/cli/tracking_inputs.h"
+#include "ui/live/tracking_inputs.h"
 
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Option.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -23,62 +21,8 @@
 #include "src/io/image_folder.h"
 #include "src/io/video.h"
 #include "src/level_camera.h"
-#include "ui/cli/frame_rate.h"
-#include "ui/cli/refuse_options.h"
 
-namespace poselift::cli {
-
-void AddTrackingInputs(CLI::App* command, TrackingInputs* inputs) {
-  command->add_option("INPUT,--device", inputs->input,
-                      "A camera (/dev/video0, or 0), a video, or a folder of pictures");
-  command->add_option(
-      "--camera", inputs->camera,
-      "Calibrated camera (see poselift calibrate), FILE#NAME in a file of several; without "
-      "one --fov-deg is taken");
-  command
-      ->add_option("--fov-deg", inputs->fov_deg,
-                   "How wide a camera sees that nobody calibrated, horizontally, in degrees; 1 is "
-                   "weak perspective")
-      ->check(IsNumber(1.0, 170.0))
-      ->capture_default_str();
-  command
-      ->add_option("--pitch-deg", inputs->pitch_deg,
-                   "How far the camera looks down, so that who stands is upright")
-      ->check(IsNumber(-90.0, 90.0))
-      ->capture_default_str();
-  command
-      ->add_option("--roll-deg", inputs->roll_deg,
-                   "How far the camera leans to its right, as seen from behind it")
-      ->check(IsNumber(-180.0, 180.0))
-      ->capture_default_str();
-  AddCameraOptions(command, &inputs->device);
-  command->add_option("--fps", inputs->folder_rate_hz, "Folder: pictures a second")
-      ->check(IsFrameRate())
-      ->capture_default_str();
-  command->add_flag("--realtime", inputs->realtime,
-                    "Video: as a camera would give it, late frames lost");
-  command->add_option("--dictionary", inputs->dictionary, "Default: the one that ships");
-  command->add_option("--motion-model", inputs->motion_model, "Default: the one that ships");
-  command->parse_complete_callback([command, inputs] {
-    if (inputs->input.empty())
-      throw CLI::RequiredError("INPUT (a camera, /dev/video0, a video, or a folder of pictures)");
-    SourceKind kind = SourceKind::kCamera;
-    try {
-      kind = KindOfSource(inputs->input);
-    } catch (const InputError&) {
-      return;  // who opens it says what is wrong
-    }
-    if (kind != SourceKind::kCamera)
-      RefuseOptions(*command, {"--size", "--rate", "--format", "--set"},
-                    "it is of a camera, and " + inputs->input + " is none");
-    if (kind != SourceKind::kFolder)
-      RefuseOptions(*command, {"--fps"}, "it is of a folder of pictures, which have no times");
-    if (kind == SourceKind::kCamera)
-      RefuseOptions(*command, {"--realtime"}, "a camera is so anyway");
-    if (!inputs->camera.empty())
-      RefuseOptions(*command, {"--fov-deg"}, "the file of --camera says how wide it sees");
-  });
-}
+namespace poselift {
 
 TrackingModels ReadModels(const TrackingInputs& inputs) {
   namespace fs = std::filesystem;
@@ -89,11 +33,12 @@ TrackingModels ReadModels(const TrackingInputs& inputs) {
   return {std::move(dictionary), std::make_shared<const MotionCodebook>(WithMirrored(codebook))};
 }
 
-std::unique_ptr<FrameSource> OpenSource(const TrackingInputs& inputs) {
-  FrameSourceOptions options{.pictures = Pictures::kGrey, .folder_rate_hz = inputs.folder_rate_hz};
+std::unique_ptr<FrameSource> OpenSource(const TrackingInputs& inputs, Pictures pictures,
+                                        SystemCalls* system) {
+  FrameSourceOptions options{.pictures = pictures, .folder_rate_hz = inputs.folder_rate_hz};
   options.live.camera = inputs.device.Options();
   options.live.keep_encoded = inputs.keep_encoded;
-  auto source = OpenFrameSource(inputs.input, options);
+  auto source = OpenFrameSource(inputs.input, options, system);
   if (inputs.realtime && KindOfSource(inputs.input) != SourceKind::kCamera)
     source = std::make_unique<PacedFrameSource>(std::move(source));
   return source;
@@ -157,4 +102,4 @@ Eigen::Quaterniond CamFromWorld(const TrackingInputs& inputs) {
          Eigen::AngleAxisd(kRad * inputs.pitch_deg, Eigen::Vector3d::UnitX()) * kLevelFromCam;
 }
 
-}  // namespace poselift::cli
+}  // namespace poselift

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the poselift authors
-#include "ui/cli/tag_session.h"
+#include "ui/live/tag_session.h"
 
 #include <utility>
 
@@ -8,7 +8,7 @@
 #include "lift/poses_to_motion.h"
 #include "lift/tracking/person_skeleton.h"
 
-namespace poselift::cli {
+namespace poselift {
 namespace {
 
 // The ids of the person's tags alone are looked for.
@@ -39,14 +39,15 @@ void TagSession::Add(const VideoFrame& frame) {
       SightTags(search_.Detect(frame.grey, predicted_px), tags_, camera_);
   tracker_.Add(frame.time_s, seen);
   Waiting& waiting = waiting_.emplace_back(Waiting{frame.time_s, frame.monotonic_s, {}});
-  for (const TagSighting& tag : seen) waiting.tag_ids.push_back(tag.detection.id);
+  for (const TagSighting& tag : seen) waiting.tags.push_back(tag.detection);
 }
 
 std::optional<TagSession::Tracked> TagSession::Take() {
   const auto frame = tracker_.Take();
   if (!frame) return std::nullopt;
   Waiting& source = waiting_.front();
-  Tracked tracked{.monotonic_s = source.monotonic_s, .tag_ids = std::move(source.tag_ids)};
+  Tracked tracked{.monotonic_s = source.monotonic_s, .tags = std::move(source.tags)};
+  for (const TagDetection& tag : tracked.tags) tracked.tag_ids.push_back(tag.id);
   tracked.poses.time_s = source.time_s;
   waiting_.pop_front();
   tracked.poses.people.push_back(person_.Convert(*frame));
@@ -66,4 +67,4 @@ std::vector<TagSighting> SightTags(const std::vector<TagDetection>& detections,
   return sightings;
 }
 
-}  // namespace poselift::cli
+}  // namespace poselift

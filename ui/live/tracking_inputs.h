@@ -11,14 +11,11 @@
 #include "lift/dictionary.h"
 #include "lift/temporal/motion_codebook.h"
 #include "src/camera.h"
+#include "src/capture/system_calls.h"
 #include "src/io/frame_source.h"
-#include "ui/cli/camera_options.h"
+#include "ui/live/camera_choice.h"
 
-namespace CLI {
-class App;
-}
-
-namespace poselift::cli {
+namespace poselift {
 
 // What commands that look at tags take: pictures from somewhere, and the camera they come from.
 struct TrackingInputs {
@@ -33,8 +30,6 @@ struct TrackingInputs {
   std::string dictionary, motion_model;
 };
 
-void AddTrackingInputs(CLI::App* command, TrackingInputs* inputs);
-
 // What is learned: the models that ship, unless others are named; with mirror images.
 struct TrackingModels {
   Dictionary dictionary;
@@ -42,8 +37,10 @@ struct TrackingModels {
 };
 TrackingModels ReadModels(const TrackingInputs& inputs);
 
-// Grey pictures. Throws InputError for a source that cannot be opened.
-std::unique_ptr<FrameSource> OpenSource(const TrackingInputs& inputs);
+// Throws InputError for a source that cannot be opened.
+std::unique_ptr<FrameSource> OpenSource(const TrackingInputs& inputs,
+                                        Pictures pictures = Pictures::kGrey,
+                                        SystemCalls* system = RealSystem());
 
 // About how far apart its frames are: what the camera gave, --fps of a folder, the first two of a
 // video.
@@ -59,4 +56,4 @@ Camera CameraOf(const TrackingInputs& inputs, cv::Size size_px);
 // How the camera stands, in a world whose y is up.
 Eigen::Quaterniond CamFromWorld(const TrackingInputs& inputs);
 
-}  // namespace poselift::cli
+}  // namespace poselift

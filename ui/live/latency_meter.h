@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-namespace poselift::cli {
+namespace poselift {
 
 // Quantiles of times, to 0.1 ms up to kLongest_s, in constant memory.
 class LatencyMeter {
@@ -28,4 +28,4 @@ class LatencyMeter {
   int64_t count_ = 0;
 };
 
-}  // namespace poselift::cli
+}  // namespace poselift

@@ -15,7 +15,7 @@
 #include "src/level_camera.h"
 #include "src/poses.h"
 
-namespace poselift::cli {
+namespace poselift {
 
 struct TagSessionOptions {
   TagSearchOptions search;
@@ -31,6 +31,7 @@ class TagSession {
     std::optional<SkeletonPose> pose;  // y up, the camera at the origin; nothing: not known
     double monotonic_s = 0.0;          // when the frame was taken, NaN of files
     std::vector<int> tag_ids;          // of the person's, in the frame
+    std::vector<TagDetection> tags;    // the same, as the picture shows them
   };
 
   // lifter must outlive this. Throws InputError as TagDetector and
@@ -44,11 +45,13 @@ class TagSession {
   std::optional<Tracked> Take();
 
   const Skeleton& skeleton() const { return skeleton_; }
+  const BodyTags& tags() const { return tags_; }
+  const Camera& camera() const { return camera_; }
 
  private:
   struct Waiting {
     double time_s, monotonic_s;
-    std::vector<int> tag_ids;
+    std::vector<TagDetection> tags;
   };
 
   BodyTags tags_;
@@ -64,4 +67,4 @@ class TagSession {
 std::vector<TagSighting> SightTags(const std::vector<TagDetection>& detections,
                                    const BodyTags& tags, const Camera& camera);
 
-}  // namespace poselift::cli
+}  // namespace poselift

@@ -3,7 +3,7 @@
 //
 // Recordings of a planted walk, read back with our own readers: whole ones, with gaps, and by
 // a child that writes as fast as it can and is killed at random moments.
-#include "ui/cli/track_recording.h"
+#include "ui/live/track_recording.h"
 
 #include <gtest/gtest.h>
 

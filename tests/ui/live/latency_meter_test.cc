@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the poselift authors
-#include "ui/cli/latency_meter.h"
+#include "ui/live/latency_meter.h"
 
 #include <gtest/gtest.h>
 
