@@ -144,6 +144,8 @@ bool LabelSession::DoOnProject(Action action) {
     case Action::kRedo:
       drag_.reset();
       action == Action::kUndo ? project_->Undo() : project_->Redo();
+      if (labels().frames.empty()) return true;
+      if (frame_index_ >= labels().frames.size()) GoToFrame(frame_index_);  // it is no more there
       person_index_ = std::min(person_index_, labels().frames[frame_index_].people.size());
       Ask();
       return true;
