@@ -26,11 +26,13 @@
 #include "src/io/atomic_file.h"
 #include "src/io/body_tags_toml.h"
 #include "src/io/growing_file.h"
+#include "ui/cli/camera_options.h"
 #include "ui/cli/frame_rate.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/refuse_options.h"
 #include "ui/cli/tags.h"
-#include "ui/cli/tracking_inputs.h"
+#include "ui/cli/tracking_options.h"
+#include "ui/live/tracking_inputs.h"
 
 namespace poselift::cli {
 namespace {
