@@ -71,5 +71,23 @@ TEST(PacedFrameSourceTest, FramesLostAtTheEndAreToldWithTheLast) {
   EXPECT_FALSE(source.Next());
 }
 
+// A picture every half hour; without Stop the test would run for longer than it may.
+TEST(PacedFrameSourceTest, StopEndsTheWait) {
+  class Slow : public CountingSource {
+   public:
+    Slow() : CountingSource(2) {}
+    std::optional<VideoFrame> Next() override {
+      auto frame = CountingSource::Next();
+      if (frame) frame->time_s = 1800.0 * frame->index;
+      return frame;
+    }
+  };
+  PacedFrameSource source(std::make_unique<Slow>());
+  ASSERT_TRUE(source.Next());
+  std::thread stopper([&] { source.Stop(); });
+  EXPECT_FALSE(source.Next());
+  stopper.join();
+}
+
 }  // namespace
 }  // namespace poselift

@@ -37,8 +37,12 @@ int StartWindow(std::vector<std::string> arguments) {
 }  // namespace
 
 CLI::App* AddLabel(CLI::App* app, Run* run) {
-  CLI::App* command = app->add_subcommand("label", "Label joints in a window: the pose answers");
-  command->footer("Example:\n  poselift label skier.jpg");
+  CLI::App* command = app->add_subcommand(
+      "label",
+      "Label joints in a window: the pose answers; a camera is watched, and frozen to be labelled");
+  command->footer(
+      "Example:\n  poselift label skier.jpg\n  poselift label /dev/video0 --camera cam.yaml --tags "
+      "tags.toml");
   command->prefix_command();
   command->set_help_flag();
   *run = [command] { return StartWindow(command->remaining()); };

@@ -61,6 +61,7 @@ void LiveSession::Record(const std::filesystem::path& dir) {
   const std::scoped_lock lock(mutex_);
   wanted_recording_ = dir;
   is_wanted_new_ = true;
+  status_.recording_message.clear();
 }
 
 void LiveSession::StopRecording() { Record({}); }
@@ -202,13 +203,16 @@ void LiveSession::End(const std::string& message) {
   {
     const std::scoped_lock lock(mutex_);
     source_ = nullptr;
+  }
+  parts_.source.reset();  // so that the camera can be opened again
+  {
+    const std::scoped_lock lock(mutex_);
     if (is_wanted_new_ && !wanted_recording_.empty())
       status_.recording_message = "nothing was recorded: no picture came after";
     status_.state = LiveStatus::State::kEnded;
     status_.message = message + flaw;
     is_told_ = false;
   }
-  parts_.source.reset();  // so that the camera can be opened again
   Tell();
 }
 

@@ -24,6 +24,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "ui/window/camera_dialog.h"
 #include "ui/window/image_from.h"
 #include "ui/window/picture_canvas.h"
 #include "ui/window/pose_canvas.h"
@@ -109,6 +110,8 @@ void MainWindow::AddMenus() {
   auto* const file = menuBar()->addMenu(tr("&File"));
   file->addAction(tr("&Open..."), QKeySequence(QKeySequence::Open), this, &MainWindow::Open)
       ->setObjectName("open");
+  file->addAction(tr("Watch a &camera..."), this, &MainWindow::WatchCamera)
+      ->setObjectName("watch_camera");
   Add(file, Action::kSave);
   file->addAction(tr("&Find moved pictures..."), this, &MainWindow::FindPictures)
       ->setObjectName("find_pictures");
@@ -244,6 +247,15 @@ void MainWindow::Open() {
   QStringList arguments;
   for (const std::string& input : Welcome::AskForPictures(this))
     arguments << QString::fromStdString(input);
+  if (!arguments.isEmpty())
+    QProcess::startDetached(QCoreApplication::applicationFilePath(), arguments);
+}
+
+// Likewise; its stills are labelled there.
+void MainWindow::WatchCamera() {
+  const auto folder = session_.project().dir() / "live";
+  const QStringList arguments =
+      CameraDialog::AskForArguments(this, QString::fromStdString(folder.string()));
   if (!arguments.isEmpty())
     QProcess::startDetached(QCoreApplication::applicationFilePath(), arguments);
 }

@@ -56,6 +56,7 @@ class MainWindow : public QMainWindow {
   void FindPictures();
   void ShowKeys();
   void Open();
+  void WatchCamera();
   void AskExport();
   void SaveScreenshot();
   void ShowPicture();

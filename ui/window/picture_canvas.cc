@@ -14,26 +14,13 @@
 
 #include "src/draw/style.h"
 #include "ui/label/layout_edges.h"
+#include "ui/window/strokes.h"
 
 namespace poselift {
 namespace {
 
 constexpr double kReach = 11.0;  // of the mouse, in the widget
 constexpr double kMark = 5.0;    // radius of a label
-
-QColor ColorFrom(const cv::Scalar& bgr) {
-  return {static_cast<int>(bgr[2]), static_cast<int>(bgr[1]), static_cast<int>(bgr[0])};
-}
-
-// Dark below bright: seen on any picture.
-void StrokeTwice(QPainter* painter, const QPainterPath& path, const QColor& color, double width,
-                 Qt::PenStyle style = Qt::SolidLine) {
-  painter->setBrush(Qt::NoBrush);
-  painter->setPen(QPen(ColorFrom(palette::kInk), width + 2.0, Qt::SolidLine, Qt::RoundCap));
-  painter->drawPath(path);
-  painter->setPen(QPen(color, width, style, style == Qt::SolidLine ? Qt::RoundCap : Qt::FlatCap));
-  painter->drawPath(path);
-}
 
 }  // namespace
 

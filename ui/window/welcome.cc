@@ -13,12 +13,14 @@
 
 #include "lift/default_dictionary.h"
 #include "src/input_error.h"
+#include "ui/window/camera_dialog.h"
 
 namespace poselift {
 
 namespace fs = std::filesystem;
 
-Welcome::Welcome(fs::path sample, QWidget* parent) : QDialog(parent), sample_(std::move(sample)) {
+Welcome::Welcome(fs::path sample, QWidget* parent, ListFn cameras)
+    : QDialog(parent), sample_(std::move(sample)), cameras_(std::move(cameras)) {
   setObjectName("welcome");
   setWindowTitle(tr("poselift"));
   auto* const column = new QVBoxLayout(this);
@@ -41,6 +43,7 @@ Welcome::Welcome(fs::path sample, QWidget* parent) : QDialog(parent), sample_(st
     inputs_ = AskForPictures(this);
     if (!inputs_.empty()) accept();
   });
+  connect(add("camera", tr("&Camera...")), &QPushButton::clicked, this, &Welcome::ChooseCamera);
   if (!sample_.empty())
     connect(add("try_sample", tr("&Try it with the sample picture")), &QPushButton::clicked, this,
             &Welcome::TrySample);
@@ -55,6 +58,15 @@ std::vector<std::string> Welcome::AskForPictures(QWidget* parent) {
   std::vector<std::string> inputs;
   for (const QString& file : files) inputs.push_back(file.toStdString());
   return inputs;
+}
+
+void Welcome::ChooseCamera() {
+  CameraDialog dialog(cameras_(), this);
+  if (dialog.exec() != QDialog::Accepted) return;
+  inputs_ = {dialog.device()};
+  tags_file_ = dialog.tags_file();
+  camera_file_ = dialog.camera_file();
+  accept();
 }
 
 void Welcome::TrySample() {

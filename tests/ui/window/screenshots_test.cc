@@ -13,6 +13,9 @@
 #include <cstdlib>
 
 #include "tests/ui/window/sample_window.h"
+#include "ui/live/live_inputs.h"
+#include "ui/window/live_pose.h"
+#include "ui/window/live_window.h"
 #include "ui/window/welcome.h"
 
 namespace poselift {
@@ -70,6 +73,22 @@ TEST_F(Screenshots, AreTaken) {
   QApplication::setPalette(dark);
   Take("label-dark");
   QApplication::setPalette(light);
+}
+
+// The clip of a person in tags, played as if it were a camera.
+TEST_F(Screenshots, OfACameraIsTaken) {
+  LiveInputs inputs;
+  inputs.view.input = testing::SourcePath("samples/tags/clip.mp4");
+  inputs.view.camera = testing::SourcePath("samples/tags/camera.yaml");
+  inputs.tags = testing::SourcePath("samples/tags/tags.toml");
+  LiveWindow live([&] { return OpenLive(inputs, lifter_); }, {"clip.mp4", folder_ / "live"},
+                  lifter_, KeyMap());
+  live.show();
+  const auto* const pose = live.findChild<LivePoseCanvas*>("live_pose");
+  constexpr int kSome = 15, kPatience_ms = 120000;
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return pose->has_pose() && live.status().num_pictures > kSome; }, kPatience_ms));
+  Take("label-live", &live);
 }
 
 }  // namespace
