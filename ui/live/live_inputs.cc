@@ -5,12 +5,14 @@
 #include <memory>
 #include <utility>
 
+#include "src/capture/open_frame_source.h"
 #include "src/io/body_tags_toml.h"
 #include "src/io/camera_file.h"
 
 namespace poselift {
 
 void CheckFiles(const LiveInputs& inputs) {
+  KindOfSource(inputs.view.input);
   if (!inputs.view.camera.empty()) ReadCamera(inputs.view.camera);
   if (!inputs.tags.empty()) ReadBodyTags(inputs.tags);
 }

@@ -18,7 +18,8 @@ struct LiveInputs {
   std::string tags;  // tags.toml; empty: pictures alone
 };
 
-// Throws InputError for a camera file or a tags file that cannot be read: sooner than OpenLive.
+// Throws InputError for a file that is not there, and a camera file or a tags file that cannot be
+// read: sooner than OpenLive.
 void CheckFiles(const LiveInputs& inputs);
 
 // Files are played at their own speed. lifter must outlive what comes. Throws InputError.

@@ -26,7 +26,8 @@ std::string StatusLine(const LiveStatus& status, const LiveView& view) {
   if (status.has_tags)
     line += fmt::format(", {} tags{}", view.tags.size(), view.pose ? "" : ", no pose yet");
   if (!status.recording.empty())
-    line += fmt::format("; {} recorded to {}", status.num_recorded, status.recording.string());
+    line += fmt::format("; {} recorded to {}", status.num_recorded,
+                        status.recording.filename().string());
   return line;
 }
 

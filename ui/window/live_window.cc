@@ -68,6 +68,7 @@ LiveWindow::LiveWindow(std::function<LiveParts()> open, const Options& options,
   line_ = new QLabel(this);
   line_->setObjectName("live_line");
   line_->setAccessibleName(tr("Rate, pictures lost, delay and tags"));
+  line_->setMinimumWidth(1);  // a small window stays small
   statusBar()->addWidget(line_, 1);
   statusBar()->addPermanentWidget(folder_line_);
   SetFolder(options.folder);
@@ -114,9 +115,8 @@ void LiveWindow::Refresh() {
     ShowProblem(tr("Not recorded: %1").arg(QString::fromStdString(status_.recording_message)));
   }
   if (!was_recording.empty() && status_.recording.empty())
-    folder_line_->setText(
-        tr("%n picture(s) recorded to %1", "", static_cast<int>(status_.num_recorded))
-            .arg(TextOf(was_recording)));
+    folder_line_->setText(tr("%n picture(s) in %1", "", static_cast<int>(status_.num_recorded))
+                              .arg(TextOf(was_recording.filename())));
   if (status_.state == LiveStatus::State::kEnded) {
     wants_recording_ = false;
     ShowProblem(QString::fromStdString(status_.message) + tr(" ('Again' starts it anew)"));
@@ -177,7 +177,9 @@ void LiveWindow::AskFolder() {
 void LiveWindow::SetFolder(const std::filesystem::path& folder) {
   if (!CloseLabels()) return;
   stills_ = StillFolder(folder, options_.layout);
-  folder_line_->setText(TextOf(folder));
+  constexpr int kLongest = 400;
+  folder_line_->setText(
+      folder_line_->fontMetrics().elidedText(TextOf(folder), Qt::ElideLeft, kLongest));
   folder_line_->setToolTip(TextOf(std::filesystem::absolute(folder)));
 }
 
