@@ -74,6 +74,8 @@ struct TagSigmas {
   // from the principal point.
   double depth = 0.0;
 };
+// Of a body 3 m away, whose parts lie within half a metre of depth, and a guess 20 % off.
+inline constexpr double kGuessedDepthSigma = 0.03;
 
 // The inverse square root of
 //   corner^2 I + J diag(mount_m^2, mount_rad^2) J^T + depth^2 c c^T,
