@@ -19,17 +19,10 @@ using Parts = std::vector<Landmark::Part>;
 // Two of them: a hint of depth without a number is met where its sign is right.
 constexpr double kMetWithin_sigmas = 2.0;
 constexpr double kFarthest_m = 10.0;
+constexpr double kLeastPinSigma_m = 1e-3;
 constexpr double kLeastStature_m = 0.3, kLargestStature_m = 3.0;
 
 bool IsOfBone(Kind kind) { return kind == Kind::kTowardsCamera || kind == Kind::kAwayFromCamera; }
-
-// A landmark of the layout or a joint; empty when it is neither.
-Parts FindParts(const std::string& name, const Layout& layout) {
-  if (const auto row = layout.Find(name); row && !layout.landmarks[*row].parts.empty())
-    return layout.landmarks[*row].parts;
-  if (const auto joint = FindJoint(name)) return {{*joint, 1.0}};
-  return {};
-}
 
 // a - b.
 Parts Difference(Parts a, const Parts& b) {
@@ -66,7 +59,7 @@ void AddFloor(const std::vector<LabelHint>& hints, const Layout& layout, double 
   std::vector<bool> is_on_floor(kNumJoints, false);
   for (int i = 0; i < std::ssize(hints); ++i) {
     if (hints[static_cast<size_t>(i)].kind != Kind::kOnFloor) continue;
-    const Parts parts = FindParts(hints[static_cast<size_t>(i)].joint, layout);
+    const Parts parts = PartsNamed(hints[static_cast<size_t>(i)].joint, layout);
     for (const Landmark::Part& part : parts) is_on_floor[static_cast<size_t>(part.joint)] = true;
     if (first.empty()) {
       first = parts;
@@ -108,6 +101,13 @@ std::string RelationOptions::Validate() const {
   return "";
 }
 
+Parts PartsNamed(const std::string& name, const Layout& layout) {
+  if (const auto row = layout.Find(name); row && !layout.landmarks[*row].parts.empty())
+    return layout.landmarks[*row].parts;
+  if (const auto joint = FindJoint(name)) return {{*joint, 1.0}};
+  return {};
+}
+
 std::string WhatIsWrongWith(const LabelHint& hint, const Layout& layout) {
   if (hint.kind == Kind::kHeight) {
     const double metres = hint.metres_m.value_or(std::nan(""));
@@ -115,18 +115,21 @@ std::string WhatIsWrongWith(const LabelHint& hint, const Layout& layout) {
     return fmt::format("found a height of {} m, wanted {} to {}", metres, kLeastStature_m,
                        kLargestStature_m);
   }
-  if (FindParts(hint.joint, layout).empty()) return UnknownJoint(hint.joint, layout);
-  if (hint.kind == Kind::kNearer && FindParts(hint.other, layout).empty())
+  if (PartsNamed(hint.joint, layout).empty()) return UnknownJoint(hint.joint, layout);
+  if (hint.kind == Kind::kNearer && PartsNamed(hint.other, layout).empty())
     return UnknownJoint(hint.other, layout);
   if (hint.kind == Kind::kNearer && hint.joint == hint.other)
     return fmt::format("found {} nearer than itself, wanted two joints", hint.joint);
   if (IsOfBone(hint.kind) && FindJoint(hint.joint).value_or(joint::kPelvis) == joint::kPelvis)
     return fmt::format(
         "found a bone that ends at \"{}\", wanted one of the 22 joints but the pelvis", hint.joint);
-  if (hint.metres_m && (hint.kind == Kind::kOnFloor || hint.kind == Kind::kPin))
+  if (hint.metres_m && hint.kind == Kind::kOnFloor)
     return fmt::format("found metres of {}, wanted none", Describe(hint));
   if (const double metres = hint.metres_m.value_or(0.0); !(metres >= 0.0 && metres <= kFarthest_m))
     return fmt::format("found {} m, wanted 0 to {}", metres, kFarthest_m);
+  if (hint.kind == Kind::kPin && hint.metres_m && !(*hint.metres_m >= kLeastPinSigma_m))
+    return fmt::format("found a pin known to {} m, wanted {} to {}", *hint.metres_m,
+                       kLeastPinSigma_m, kFarthest_m);
   if (hint.kind == Kind::kPin &&
       !(hint.x_in_cam_m.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kFarthest_m))
     return fmt::format("found a pin at ({}, {}, {}), wanted metres from the pelvis up to {}",
@@ -146,7 +149,7 @@ std::vector<JointRelation> RelationsOf(const std::vector<LabelHint>& hints, cons
                            hint.metres_m.value_or(options.least_depth_m), options.sigma_m, true});
     };
     if (hint.kind == Kind::kNearer)
-      add_depth(FindParts(hint.joint, layout), FindParts(hint.other, layout));
+      add_depth(PartsNamed(hint.joint, layout), PartsNamed(hint.other, layout));
     if (IsOfBone(hint.kind)) {
       const int end = *FindJoint(hint.joint);
       const Parts start = {{Joints()[static_cast<size_t>(end)].parent, 1.0}};
@@ -157,8 +160,9 @@ std::vector<JointRelation> RelationsOf(const std::vector<LabelHint>& hints, cons
     }
     if (hint.kind == Kind::kPin)
       for (int axis = 0; axis < 3; ++axis)
-        relations.push_back({i, Difference(FindParts(hint.joint, layout), {{joint::kPelvis, 1.0}}),
-                             Eigen::Vector3d::Unit(axis), hint.x_in_cam_m[axis], options.sigma_m});
+        relations.push_back({i, Difference(PartsNamed(hint.joint, layout), {{joint::kPelvis, 1.0}}),
+                             Eigen::Vector3d::Unit(axis), hint.x_in_cam_m[axis],
+                             hint.metres_m.value_or(options.sigma_m)});
   }
   AddFloor(hints, layout, options.floor_sigma_m, &relations);
   return relations;

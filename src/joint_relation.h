@@ -43,12 +43,17 @@ struct RelationOptions {
 //   towards   z_start - z_end                          >= metres_m, away the other way round
 //   floor     (y_i + h_i) - (y_j + h_j)                 = 0 of two joints on it,
 //             (y_i + h_i) - (y_k + h_k)                >= 0 of every other joint k
-//   pin       x_joint - x_0                             = x_in_cam_m, three rows
+//   pin       x_joint - x_0                             = x_in_cam_m, three rows, known to
+//                                                         metres_m where it is said
 // The stature gives none. Throws InputError for a joint that neither the layout nor the
 // body has, a bone that ends at none of the 23 joints or at the pelvis, and numbers
 // that are not finite or negative.
 std::vector<JointRelation> RelationsOf(const std::vector<LabelHint>& hints, const Layout& layout,
                                        const RelationOptions& options = {});
+
+// What a hint names: a landmark of the layout or, where that has none of the name, one of the 23
+// joints; empty when it is neither.
+std::vector<Landmark::Part> PartsNamed(const std::string& name, const Layout& layout);
 
 // Empty, or what RelationsOf would throw.
 std::string WhatIsWrongWith(const LabelHint& hint, const Layout& layout);

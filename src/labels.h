@@ -29,7 +29,7 @@ struct LabelHint {
     kAwayFromCamera,  // start, by metres_m at least; or farther
     kOnFloor,         // `joint` is on the floor, which is level in cam; no joint is below
     kHeight,          // the person is metres_m tall, from the soles to the crown
-    kPin              // `joint` is at x_in_cam_m from the pelvis
+    kPin              // `joint` is at x_in_cam_m from the pelvis, give or take metres_m
   };
   Kind kind = Kind::kNearer;
   std::string joint = {};

@@ -13,6 +13,32 @@ namespace poselift {
 namespace {
 
 constexpr double kBodyHeight_m = 1.6;  // ankle to crown
+constexpr int kLeastPoints = 4;        // of a pose
+constexpr double kPelvisSigma_m = 0.01;
+
+bool IsPin(const LabelHint& hint) { return hint.kind == LabelHint::Kind::kPin; }
+
+// Pins as points, where they would be relations without a point to start from.
+void ObservePins(const std::vector<LabelHint>& hints, const Layout& layout, double sigma_m,
+                 Observation* observation) {
+  observation->points = {{.name = "pelvis",
+                          .parts = {{joint::kPelvis, 1.0}},
+                          .kind = ObservedPoint::Kind::k3D,
+                          .sigma = kPelvisSigma_m}};
+  for (int i = 0; i < std::ssize(hints); ++i) {
+    const LabelHint& hint = hints[static_cast<size_t>(i)];
+    if (IsPin(hint))
+      observation->points.push_back({.name = hint.joint,
+                                     .parts = PartsNamed(hint.joint, layout),
+                                     .kind = ObservedPoint::Kind::k3D,
+                                     .x = hint.x_in_cam_m,
+                                     .sigma = hint.metres_m.value_or(sigma_m),
+                                     .hint = i});
+  }
+  std::erase_if(observation->relations, [&](const JointRelation& relation) {
+    return IsPin(hints[static_cast<size_t>(relation.hint)]);
+  });
+}
 
 }  // namespace
 
@@ -62,6 +88,9 @@ Observation Observe(const PersonLabels& labels, const Layout& layout,
   observation.relations = RelationsOf(labels.hints, layout, options.relations);
   for (const LabelHint& hint : labels.hints)
     if (hint.kind == LabelHint::Kind::kHeight) observation.stature_m = hint.metres_m;
+  if (std::ssize(observation.points) < kLeastPoints &&
+      std::ranges::count_if(labels.hints, IsPin) >= kLeastPoints)
+    ObservePins(labels.hints, layout, options.relations.sigma_m, &observation);
   return observation;
 }
 

@@ -25,6 +25,7 @@ struct ObservedPoint {
   Eigen::Vector3d x = Eigen::Vector3d::Zero();  // k2D: (x_px, y_px, 0); k3D: x_in_cam_m
   double sigma = 1.0;                           // px or m
   LabelState state = LabelState::kVisible;
+  int hint = -1;  // of PersonLabels::hints, when a pin is what it comes from
 };
 
 // The pose of a tag that is fixed to a bone, measured in space. Its residual is
@@ -77,6 +78,9 @@ struct ObserveOptions {
 // absent ones left out. A landmark that lies beside its sum of joints (an ear)
 // has its offset added to its sigma, at a body height of about the labels'
 // extent. Hints are relations and the stature (RelationsOf).
+//
+// Pins alone give a pose too: with fewer than four labels and as many pins at least, these are
+// points in space beside the pelvis at the origin, and the labels wait.
 Observation Observe(const PersonLabels& labels, const Layout& layout,
                     const ObserveOptions& options = {});
 
