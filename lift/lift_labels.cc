@@ -31,10 +31,10 @@ PersonLabels WithoutDistortion(PersonLabels labels, const Camera& camera, const 
 }
 
 Observation ObserveThrough(const std::optional<Camera>& camera, const PersonLabels& person,
-                           const Layout& layout) {
-  if (!camera) return Observe(person, layout);
+                           const Layout& layout, const ObserveOptions& options = {}) {
+  if (!camera) return Observe(person, layout, options);
   const Pinhole pinhole{camera->fx_px, {camera->cx_px, camera->cy_px}};
-  Observation observation = Observe(WithoutDistortion(person, *camera, pinhole), layout);
+  Observation observation = Observe(WithoutDistortion(person, *camera, pinhole), layout, options);
   observation.pinhole = pinhole;
   return observation;
 }
@@ -84,7 +84,8 @@ Track TrackOf(const Labels& labels, int id, const FrameGrid& grid,
     if (track.labelled.empty()) first_place = grid.places[f];
     const auto place = static_cast<size_t>(grid.places[f] - first_place);
     track.observations.resize(place + 1);
-    track.observations[place] = ObserveThrough(camera, labels.frames[f].people[*person], layout);
+    track.observations[place] = ObserveThrough(camera, labels.frames[f].people[*person], layout,
+                                               {.pins_may_be_points = false});
     track.labelled.push_back({f, *person, place});
   }
   return track;
@@ -137,8 +138,13 @@ PersonPose ToPersonPose(const LiftResult& result, const Observation& observation
   person.angles_deg = Named(JointAngleReader(skeleton).ReadDeg(LevelFromCam(best.pose)));
   person.angles_sigma_deg = Named(best.angles_sigma_deg);
   person.reprojection_rms_px = best.reprojection_rms_px;
+  if (observation.Count(ObservedPoint::Kind::k2D) == 0) {  // no camera is known
+    person.scale_px_per_m = person.reprojection_rms_px = std::nan("");
+    person.translation_px.setConstant(std::nan(""));
+  }
   for (size_t i = 0; i < observation.points.size(); ++i)
-    person.per_joint_px.emplace_back(observation.points[i].name,
+    if (observation.points[i].kind == ObservedPoint::Kind::k2D)
+      person.per_joint_px.emplace_back(observation.points[i].name,
                                      best.point_errors[static_cast<Eigen::Index>(i)]);
   for (size_t i = 0; i < best.code.atoms.size(); ++i)
     person.atoms.emplace_back(best.code.atoms[i],

@@ -27,6 +27,18 @@ void KeepDistinct(double distinct_m, std::vector<LiftedPose>* sorted) {
   *sorted = std::move(distinct);
 }
 
+// Of pins that are points, as UnmetHints has them of relations.
+void AddUnmetPins(const Observation& observation, LiftedPose* lifted) {
+  constexpr double kMetWithin_sigmas = 2.0;
+  for (size_t i = 0; i < observation.points.size(); ++i) {
+    const ObservedPoint& point = observation.points[i];
+    if (point.hint >= 0 &&
+        !(lifted->point_errors[static_cast<Eigen::Index>(i)] <= kMetWithin_sigmas * point.sigma))
+      lifted->unmet_hints.push_back(point.hint);
+  }
+  std::ranges::sort(lifted->unmet_hints);
+}
+
 }  // namespace
 
 Eigen::Vector3d MeanShift_m(const Observation& observation, const Pose3& joints_in_cam_m) {
@@ -78,8 +90,9 @@ std::string LiftResult::BriefReport() const {
   if (!IsUsable()) return message;
   const size_t num_alternatives = poses.size() - 1;
   const size_t num_unmet = poses.front().unmet_hints.size();
-  return fmt::format("reprojection {:.1f} px RMS, {} atoms, {} alternative{}",
-                     poses.front().reprojection_rms_px, poses.front().code.atoms.size(),
+  const double rms_px = poses.front().reprojection_rms_px;
+  return (rms_px < 0.0 ? "" : fmt::format("reprojection {:.1f} px RMS, ", rms_px)) +
+         fmt::format("{} atoms, {} alternative{}", poses.front().code.atoms.size(),
                      num_alternatives, num_alternatives == 1 ? "" : "s") +
          (num_unmet == 0
               ? ""
@@ -122,13 +135,14 @@ LiftResult PhotoLifter::LiftAtSkeletonSize(const Observation& observation) const
     MeasureErrors(observation, &*lifted);
     lifted->cost = Cost(*lifted, observation);
     lifted->unmet_hints = UnmetHints(observation.relations, lifted->joints_in_cam_m);
+    AddUnmetPins(observation, &*lifted);
     return lifted;
   };
   const auto wanted = static_cast<size_t>(options_.max_solutions);
   for (size_t first = 0; first < solutions.size() && result.poses.size() < wanted;) {
     std::vector<std::optional<LiftedPose>> finished(
         std::min(wanted - result.poses.size(), solutions.size() - first));
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic) if (finished.size() > 1)
     for (size_t i = 0; i < finished.size(); ++i) finished[i] = finish(solutions[first + i]);
     first += finished.size();
     for (auto& lifted : finished)

@@ -15,6 +15,8 @@ namespace poselift {
 namespace {
 
 constexpr int kLeastPoints = 4;
+// So many in space, and nothing else, show all of the body from one side only.
+constexpr int kPointsOfAWholeBody = 15;
 // How far off a pose that was mirrored may be: it is where to start.
 constexpr double kMirrorSigma_m = 0.1;
 // px or m: fourth powers of what lies within are far from overflow.
@@ -51,7 +53,7 @@ std::vector<LiftSolution> Distinct(std::vector<LiftSolution> sorted, double dist
 void RunEach(const Alternation& alternation, int alternations, std::vector<LiftSolution>* solutions,
              int count) {
   count = std::min(count, static_cast<int>(solutions->size()));
-#pragma omp parallel
+#pragma omp parallel if (count > 1)
   {
     Alternation mine(alternation);
 #pragma omp for schedule(dynamic)
@@ -131,8 +133,10 @@ Lifter::Lifter(const Dictionary& dictionary, LifterOptions options)
 std::vector<LiftSolution> Lifter::Solve(const Observation& observation) const {
   if (!CanLift(observation).empty()) return {};
   Alternation alternation(dictionary_, options_, observation, prior_rows_, prior_target_);
-  const auto starts =
+  auto starts =
       SearchViews(alternation.op(), alternation.centred_atoms(), options_.rotation, options_.views);
+  if (!alternation.op().Has2D() && alternation.op().Num3D() >= kPointsOfAWholeBody)
+    starts.resize(std::min<size_t>(starts.size(), 1));
   auto solutions = AtStarts(starts, dictionary_, alternation.op().Has2D());
   const int trial = std::min(options_.trial_alternations, options_.max_alternations);
   RunEach(alternation, trial, &solutions, static_cast<int>(solutions.size()));

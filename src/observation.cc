@@ -88,7 +88,7 @@ Observation Observe(const PersonLabels& labels, const Layout& layout,
   observation.relations = RelationsOf(labels.hints, layout, options.relations);
   for (const LabelHint& hint : labels.hints)
     if (hint.kind == LabelHint::Kind::kHeight) observation.stature_m = hint.metres_m;
-  if (std::ssize(observation.points) < kLeastPoints &&
+  if (options.pins_may_be_points && std::ssize(observation.points) < kLeastPoints &&
       std::ranges::count_if(labels.hints, IsPin) >= kLeastPoints)
     ObservePins(labels.hints, layout, options.relations.sigma_m, &observation);
   return observation;

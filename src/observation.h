@@ -70,6 +70,7 @@ struct ObserveOptions {
   double relative_sigma = 0.012;       // of the labels' extent, where a label has no radius_px
   double occluded_sigma_factor = 3.0;  // an occluded joint's position is a guess
   RelationOptions relations;
+  bool pins_may_be_points = true;  // false where the frames around say more than pins alone
 
   std::string Validate() const;
 };

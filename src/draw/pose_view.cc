@@ -261,16 +261,29 @@ cv::Mat DrawPoseView(const PoseViewInput& input, const PoseViewOptions& options)
   return sheet;
 }
 
-cv::Mat DrawPoseFrom(const PoseViewInput& input, const PoseOrbit& orbit, int side_px) {
+Scene PoseStage(const PoseViewInput& input) {
+  return MakeScene(input.joints_in_cam_m, input.alternatives_in_cam_m, input.up_in_cam);
+}
+
+Projection PoseProjection(const Scene& stage, const PoseOrbit& orbit, int side_px) {
+  return {OrbitView(stage, orbit.yaw_rad, orbit.pitch_rad), stage.center_in_cam_m,
+          orbit.zoom * side_px / (2.5 * stage.radius_m), Vector2d::Constant(0.5 * side_px)};
+}
+
+cv::Mat DrawPoseFrom(const PoseViewInput& input, const PoseOrbit& orbit, int side_px,
+                     const Scene* stage) {
   Check(input, {.panel_px = side_px});
-  const Scene scene =
-      MakeScene(input.joints_in_cam_m, input.alternatives_in_cam_m, input.up_in_cam);
+  Scene scene = PoseStage(input);
+  if (stage) {
+    Scene held = *stage;
+    held.joints_in_cam_m = scene.joints_in_cam_m;
+    held.others_in_cam_m = scene.others_in_cam_m;
+    scene = std::move(held);
+  }
   cv::Mat panel(side_px, side_px, CV_8UC3, palette::kPaper);
-  View view = OrbitView(scene, orbit.yaw_rad, orbit.pitch_rad);
-  view.title = input.title;
-  DrawPanel(&panel, scene,
-            {view, scene.center_in_cam_m, orbit.zoom * side_px / (2.5 * scene.radius_m),
-             Vector2d::Constant(0.5 * side_px)});
+  Projection projection = PoseProjection(scene, orbit, side_px);
+  projection.view.title = input.title;
+  DrawPanel(&panel, scene, projection);
   return panel;
 }
 

@@ -50,6 +50,11 @@ double GridStep(double radius_m) {
   return step_m;
 }
 
+// How much smaller what lies at z is than what lies at 0.
+double Shrink(const View& view, double z_m) {
+  return view.eye_distance_m > 0.0 ? view.eye_distance_m / (view.eye_distance_m + z_m) : 1.0;
+}
+
 Matrix3d Rows(const Vector3d& x, const Vector3d& y, const Vector3d& z) {
   Matrix3d rows;
   rows << x.transpose(), y.transpose(), z.transpose();
@@ -120,10 +125,17 @@ View OrbitView(const Scene& scene, double yaw_rad, double pitch_rad) {
   return {"three-quarter", view_from_cam, kEyeDistance * scene.radius_m};
 }
 
+Vector3d Projection::InCam(const Eigen::Vector2d& x_px, const Vector3d& as_far_in_cam_m) const {
+  const double z_m = view.view_from_cam.row(2).dot(as_far_in_cam_m - center_in_cam_m);
+  const Eigen::Vector2d flat = (x_px - offset_px) / scale_px_per_m;
+  Vector3d x;
+  x << view.eye_in_view_m + (flat - view.eye_in_view_m) / Shrink(view, z_m), z_m;
+  return center_in_cam_m + view.view_from_cam.transpose() * x;
+}
+
 Vector3d Projection::operator()(const Vector3d& x_in_cam_m) const {
   const Vector3d x = view.view_from_cam * (x_in_cam_m - center_in_cam_m);
-  const double shrink =
-      view.eye_distance_m > 0.0 ? view.eye_distance_m / (view.eye_distance_m + x.z()) : 1.0;
+  const double shrink = Shrink(view, x.z());
   const Eigen::Vector2d flat = view.eye_in_view_m + shrink * (x.head<2>() - view.eye_in_view_m);
   Vector3d px;
   px << scale_px_per_m * flat + offset_px, scale_px_per_m * x.z();

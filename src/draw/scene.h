@@ -59,6 +59,8 @@ struct Projection {
   Eigen::Vector3d operator()(const Eigen::Vector3d& x_in_cam_m) const;
   Eigen::Vector2d Flat(const Eigen::Vector3d& x_in_cam_m) const;
   Pose3 operator()(const Pose3& joints_in_cam_m) const;
+  // The point that is seen there and is as far away as another one.
+  Eigen::Vector3d InCam(const Eigen::Vector2d& x_px, const Eigen::Vector3d& as_far_in_cam_m) const;
 };
 
 }  // namespace poselift

@@ -59,7 +59,11 @@ LabelHint RandomHint(const Labels& labels, std::mt19937* rng) {
     case 4:
       return {Kind::kHeight, "", "", 1.5 + 0.01 * Below(50, rng)};
     default:
-      return {Kind::kPin, "right_hand", "", {}, {0.25, -0.5, 0.001 * Below(1000, rng)}};
+      return {Kind::kPin,
+              "right_hand",
+              "",
+              Below(2, rng) == 0 ? std::optional<double>(0.05) : std::optional<double>(),
+              {0.25, -0.5, 0.001 * Below(1000, rng)}};
   }
 }
 
@@ -96,7 +100,13 @@ LabelEdit EditOfPerson(const Labels& labels, PersonRef ref, std::mt19937* rng) {
 
 LabelEdit EditOfFrames(const Labels& labels, PersonRef ref, std::mt19937* rng) {
   LabelEdit edit;
-  const int kind = Below(4, rng);
+  const int kind = Below(5, rng);
+  if (kind == 4 && labels.frames.size() > 1) {
+    edit.name = "drop the last frame";
+    edit.people[0] = labels.frames.back().people;
+    edit.dropped = 1;
+    return edit;
+  }
   if (kind == 0) return MirrorFrame(labels, ref.frame, 640);
   if (kind == 1) {
     edit.name = "carry through the video";

@@ -41,7 +41,8 @@ CLI::App* AddLabel(CLI::App* app, Run* run) {
       "label",
       "Label joints in a window: the pose answers; a camera is watched, and frozen to be labelled");
   command->footer(
-      "Example:\n  poselift label skier.jpg\n  poselift label /dev/video0 --camera cam.yaml --tags "
+      "Examples:\n  poselift label skier.jpg\n  poselift label --pose hero.labels.json\n  poselift "
+      "label /dev/video0 --camera cam.yaml --tags "
       "tags.toml");
   command->prefix_command();
   command->set_help_flag();

@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::string_view kFormat = "poselift-journal";
 constexpr double kLargestSize = 9007199254740992.0;  // 2^53: doubles count to it
+constexpr int kMostFrames = 1 << 30;
 constexpr std::pair<std::string_view, JournalLine::Kind> kSteps[] = {
     {"edit", JournalLine::Kind::kEdit},   {"undo", JournalLine::Kind::kUndo},
     {"redo", JournalLine::Kind::kRedo},   {"saving", JournalLine::Kind::kSaving},
@@ -70,21 +71,33 @@ void ReadMap(const JsonValue* json, ReadValue read, std::map<size_t, Value>* map
   }
 }
 
+void AppendAdded(const LabelEdit& edit, std::string* out) {
+  if (edit.added.empty()) return;
+  *out += ", \"added\": [";
+  for (size_t i = 0; i < edit.added.size(); ++i) {
+    if (i > 0) *out += ", ";
+    AppendNativeFrame(edit.added[i], out);
+  }
+  *out += "]";
+}
+
 void ReadMaps(const JsonValue& json, const Layout& layout, LabelEdit* edit) {
   ReadMap(
       json.Find("people"),
       [&](const JsonValue& people) { return ReadNativePeople(people, layout); }, &edit->people);
   ReadMap(
       json.Find("images"), [](const JsonValue& image) { return image.String(); }, &edit->images);
+  if (const JsonValue* added = json.Find("added"))
+    for (const JsonValue& frame : added->Items())
+      edit->added.push_back(ReadNativeFrame(frame, layout));
 }
 
 void ReadEdit(const JsonValue& root, const Layout& layout, JournalLine* line) {
   line->edit.name = root.At("name").String();
   if (const JsonValue* merge = root.Find("merge")) line->edit.merge_key = merge->String();
   ReadMaps(root, layout, &line->edit);
-  if (const JsonValue* added = root.Find("added"))
-    for (const JsonValue& frame : added->Items())
-      line->edit.added.push_back(ReadNativeFrame(frame, layout));
+  if (const JsonValue* dropped = root.Find("dropped"))
+    line->edit.dropped = static_cast<size_t>(dropped->Integer(0, kMostFrames));
   ReadMaps(root.At("before"), layout, &line->before);
 }
 
@@ -110,14 +123,8 @@ std::string EditLine(const LabelEdit& edit, const LabelEdit& before) {
   std::string text = R"({"step": "edit", "name": )";
   AppendJsonString(edit.name, &text);
   AppendMaps(edit, &text);
-  if (!edit.added.empty()) {
-    text += ", \"added\": [";
-    for (size_t i = 0; i < edit.added.size(); ++i) {
-      if (i > 0) text += ", ";
-      AppendNativeFrame(edit.added[i], &text);
-    }
-    text += "]";
-  }
+  if (edit.dropped > 0) text += fmt::format(", \"dropped\": {}", edit.dropped);
+  AppendAdded(edit, &text);
   if (!edit.merge_key.empty()) {
     text += ", \"merge\": ";
     AppendJsonString(edit.merge_key, &text);
@@ -125,6 +132,7 @@ std::string EditLine(const LabelEdit& edit, const LabelEdit& before) {
   text += ", \"before\": {\"of\": ";  // a member for the commas to follow
   AppendJsonString(edit.name, &text);
   AppendMaps(before, &text);
+  AppendAdded(before, &text);
   return InOneLine(text + "}}");
 }
 

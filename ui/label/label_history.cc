@@ -64,10 +64,10 @@ void CheckFrame(const FrameLabels& frame, const Layout& layout) {
 }
 
 template <typename Map>
-void CheckFrameNumbers(const Map& map, const Labels& labels) {
-  if (!map.empty() && map.rbegin()->first >= labels.frames.size())
+void CheckFrameNumbers(const Map& map, size_t num_frames) {
+  if (!map.empty() && map.rbegin()->first >= num_frames)
     throw InputError(fmt::format("found the frame {}, wanted one of the {} there are",
-                                 map.rbegin()->first, labels.frames.size()));
+                                 map.rbegin()->first, num_frames));
 }
 
 template <typename Map>
@@ -81,8 +81,12 @@ bool HaveEqualKeys(const Map& a, const Map& b) {
 void CheckEdit(const Labels& labels, const LabelEdit& edit) {
   const Layout* const layout = FindLayout(labels.layout);
   if (!layout) throw InputError(fmt::format("found no layout \"{}\"", labels.layout));
-  CheckFrameNumbers(edit.people, labels);
-  CheckFrameNumbers(edit.images, labels);
+  if (edit.dropped > labels.frames.size())
+    throw InputError(fmt::format("found {} frames to drop, wanted up to the {} there are",
+                                 edit.dropped, labels.frames.size()));
+  const size_t num_kept = labels.frames.size() - edit.dropped;
+  CheckFrameNumbers(edit.people, num_kept);
+  CheckFrameNumbers(edit.images, num_kept);
   for (const auto& [frame, people] : edit.people) CheckPeople(people, *layout);
   for (const FrameLabels& frame : edit.added) CheckFrame(frame, *layout);
 }
@@ -90,6 +94,7 @@ void CheckEdit(const Labels& labels, const LabelEdit& edit) {
 void ApplyEdit(const LabelEdit& edit, Labels* labels) {
   for (const auto& [frame, people] : edit.people) labels->frames[frame].people = people;
   for (const auto& [frame, image] : edit.images) labels->frames[frame].image = image;
+  labels->frames.resize(labels->frames.size() - edit.dropped);
   labels->frames.insert(labels->frames.end(), edit.added.begin(), edit.added.end());
 }
 
@@ -98,6 +103,8 @@ LabelEdit WayBack(const Labels& labels, const LabelEdit& edit) {
   for (const auto& [frame, people] : edit.people)
     before.people[frame] = labels.frames[frame].people;
   for (const auto& [frame, image] : edit.images) before.images[frame] = labels.frames[frame].image;
+  before.added.assign(labels.frames.end() - static_cast<std::ptrdiff_t>(edit.dropped),
+                      labels.frames.end());
   return before;
 }
 
@@ -115,6 +122,7 @@ bool LabelSteps::MergesWithLast(const LabelEdit& edit) const {
   if (sealed_ || edit.merge_key.empty() || applied_ == 0) return false;
   const LabelEdit& last = all_[applied_ - 1].edit;
   return last.merge_key == edit.merge_key && last.added.empty() && edit.added.empty() &&
+         last.dropped == 0 && edit.dropped == 0 &&
          HaveEqualKeys(last.people, edit.people) && HaveEqualKeys(last.images, edit.images);
 }
 

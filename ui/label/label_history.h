@@ -18,18 +18,21 @@ struct LabelEdit {
   std::string name;                                    // for a menu: "place left knee"
   std::map<size_t, std::vector<PersonLabels>> people;  // of these frames, all of them
   std::map<size_t, std::string> images;                // paths of pictures that moved
-  std::vector<FrameLabels> added;                      // frames put behind the last one
+  std::vector<FrameLabels> added = {};                 // frames put behind the last one
   // An edit with the key of the one before it makes one step with it: small nudges of the same
-  // landmark. Empty: a step of its own. An edit that adds frames is always one.
-  std::string merge_key;
+  // landmark. Empty: a step of its own. An edit that adds or drops frames is always one.
+  std::string merge_key = {};
+  size_t dropped = 0;  // so many of the last frames go, before any are added
 
-  bool ChangesNothing() const { return people.empty() && images.empty() && added.empty(); }
+  bool ChangesNothing() const {
+    return people.empty() && images.empty() && added.empty() && dropped == 0;
+  }
 };
 
-// An edit and its way back: people and images as they were.
+// An edit and its way back: people and images as they were, and the frames that were dropped.
 struct LabelStep {
   LabelEdit edit;
-  LabelEdit before;         // without name, added and merge_key
+  LabelEdit before;         // without name, merge_key and dropped
   std::uint64_t state = 0;  // of the labels after it
 };
 

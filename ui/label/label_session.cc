@@ -39,6 +39,7 @@ LabelSession::LabelSession(LabelProject* project, const PhotoLifter& lifter,
         if (wake_) wake_();
       }) {
   if (!layout_) throw InputError("found labels without a layout, wanted one, such as body15");
+  handles_ = PoseHandles(*layout_);
   GoToFrame(0);
 }
 
@@ -110,7 +111,7 @@ void LabelSession::Move(const Eigen::Vector2d& x_px) {
 void LabelSession::Release() {
   if (!drag_) return;
   Drag drag = *std::exchange(drag_, std::nullopt);
-  if (!drag.edit && drag.is_person) return;
+  if (!drag.edit && (drag.is_person || drag.pose)) return;
   if (!drag.edit) {
     // A click near a landmark: joints may lie on each other.
     const size_t hit_person = std::exchange(person_index_, drag.person_before);
@@ -147,6 +148,7 @@ bool LabelSession::CycleStateAt(const Eigen::Vector2d& x_px, double reach_px) {
 void LabelSession::GoToFrame(size_t index) {
   if (labels().frames.empty()) return;
   drag_.reset();
+  hovered_.reset();
   frame_index_ = std::min(index, labels().frames.size() - 1);
   person_index_ =
       std::min(person_index_, std::max<size_t>(labels().frames[frame_index_].people.size(), 1) - 1);
@@ -230,7 +232,8 @@ std::optional<double> LabelSession::Residual_px(std::string_view landmark) const
   const LiftedPose* lifted = pose();
   if (!lifted) return std::nullopt;
   for (size_t i = 0; i < observation_.points.size(); ++i)
-    if (observation_.points[i].name == landmark)
+    if (observation_.points[i].name == landmark &&
+        observation_.points[i].kind == ObservedPoint::Kind::k2D)
       return lifted->point_errors[static_cast<Eigen::Index>(i)];
   return std::nullopt;
 }
@@ -271,11 +274,14 @@ std::string LabelSession::Status() const {
   if (nearer_)
     return fmt::format("click the joint that is farther from the camera than {}",
                        InWords(layout_->landmarks[static_cast<size_t>(*nearer_)].name));
+  if (hovered_ && pose()) return HandleStatus(*hovered_);
   std::string status =
       fmt::format("click: {}", InWords(layout_->landmarks[static_cast<size_t>(landmark_)].name));
   if (const LiftedPose* lifted = pose())
-    status += fmt::format("   pose {} of {}, {:.1f} px", pose_index_ + 1, result_.poses.size(),
-                          lifted->reprojection_rms_px);
+    status += fmt::format("   pose {} of {}", pose_index_ + 1, result_.poses.size()) +
+              (lifted->reprojection_rms_px < 0.0
+                   ? std::string()
+                   : fmt::format(", {:.1f} px", lifted->reprojection_rms_px));
   else
     status += "   no pose yet: " + result_.message;
   if (pose() && !pose()->unmet_hints.empty())

@@ -23,6 +23,8 @@
 #include "ui/label/label_flow.h"
 #include "ui/label/label_project.h"
 #include "ui/label/picture_hit.h"
+#include "ui/label/pose_drag.h"
+#include "ui/label/pose_handles.h"
 #include "ui/label/pose_solver.h"
 
 namespace poselift {
@@ -54,6 +56,21 @@ class LabelSession {
   void Move(const Eigen::Vector2d& x_px);
   void Release();
   bool CycleStateAt(const Eigen::Vector2d& x_px, double reach_px);
+
+  // The mouse on the pose in space: a handle that is pressed and moved is dragged (PoseDrag), as one
+  // step; the pose answers on the way. Release() ends it.
+  const std::vector<PoseHandle>& handles() const { return handles_; }
+  void Hover(std::optional<size_t> handle);
+  std::optional<size_t> hovered() const { return hovered_; }
+  // False, and said in Status(), where there is nothing to drag.
+  bool PressHandle(size_t handle, PoseDrag::Way way);
+  void MoveHandle(const Eigen::Vector3d& to_in_cam_m);
+  // Pins the joint where it is, or lets it go.
+  void TogglePin(size_t handle);
+  // Where a person wants a joint, metres of the skeleton; nothing for one that is not pinned.
+  std::optional<Eigen::Vector3d> PinnedAt(size_t handle) const;
+  // How the picture shows the pose: as the labels say, else the whole of it in the middle.
+  WeakCamera PictureCamera() const;
 
   // Hints of the person at hand (src/labels.h).
   std::vector<LabelHint> Hints() const;
@@ -113,6 +130,11 @@ class LabelSession {
   bool DoFlow(Action action);
   void Follow(Reach reach);
   bool TakeFollowed();
+  bool DoPose(Action action);
+  void ChangeFrames(bool adds);
+  bool HasLabelsInForce() const { return observation_.Count(ObservedPoint::Kind::k2D) > 0; }
+  std::optional<size_t> HandleAtHand() const;
+  std::string HandleStatus(size_t handle) const;
   void FlipLimb(const std::string& joint);
   void KeepPose();
   void Give(std::vector<LabelHint> hints);
@@ -133,10 +155,13 @@ class LabelSession {
     int landmark_before = 0;                            // what was at hand
     bool is_new = true;                                 // not dragged but placed
     bool is_person = false;                             // all of them
+    std::shared_ptr<PoseDrag> pose = {};                // in space
     Eigen::Vector2d grab_px = Eigen::Vector2d::Zero();  // from the mouse to the landmark
     std::optional<LabelEdit> edit = {};                 // what it comes to if it ends here
   };
   std::optional<Drag> drag_;
+  std::vector<PoseHandle> handles_;
+  std::optional<size_t> hovered_;
 
   std::mutex mutex_;
   std::optional<std::pair<uint64_t, LiftResult>> waiting_;  // guarded by mutex_

@@ -22,6 +22,7 @@
 #include "ui/label/key_map.h"
 #include "ui/label/label_inputs.h"
 #include "ui/label/label_project.h"
+#include "ui/label/new_pose.h"
 #include "ui/live/live_inputs.h"
 #include "ui/window/live_window.h"
 #include "ui/window/main_window.h"
@@ -32,7 +33,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> inputs;
-  std::string labels, layout = "body15", keys;
+  std::string labels, layout = "body15", keys, pose;
   bool is_live = false;
   LiveInputs live;
   std::string out = "live";
@@ -63,11 +64,16 @@ void CheckLive(const CLI::App& app, Options* options) {
 
 void AddOptions(CLI::App* app, Options* options) {
   app->footer(
-      "Example:\n  poselift label skier.jpg\n"
+      "Examples:\n  poselift label skier.jpg\n  poselift label --pose hero.labels.json\n"
       "  poselift label /dev/video0 --camera cam.yaml --tags tags.toml");
-  app->add_option("INPUT", options->inputs,
-                  "Pictures, folders of pictures, videos, a labels file, or a camera (/dev/video0, "
-                  "or 0); none: a window asks");
+  auto* const pictures = app->add_option(
+      "INPUT", options->inputs,
+      "Pictures, folders of pictures, videos, a labels file, or a camera (/dev/video0, "
+      "or 0); none: a window asks");
+  app->add_option(
+         "--pose", options->pose,
+         "A pose without a picture, to be dragged: this labels file, made if it is not there")
+      ->excludes(pictures);
   app->add_option("--labels", options->labels,
                   "The labels file (default: NAME.labels.json beside the first picture)");
   app->add_option("--layout", options->layout, "Landmarks of new labels")->capture_default_str();
@@ -106,7 +112,9 @@ int Watch(const Options& options, const PhotoLifter& lifter, const KeyMap& keys)
 }
 
 int Label(const Options& options, const PhotoLifter& lifter, const KeyMap& keys) {
-  LabelProject project(FindLabelsFile(options.inputs, options.labels, options.layout));
+  LabelProject project(options.pose.empty()
+                           ? FindLabelsFile(options.inputs, options.labels, options.layout)
+                           : std::filesystem::path(options.pose));
   MainWindow window(&project, lifter, keys);
   window.show();
   return QApplication::exec();
@@ -128,7 +136,10 @@ int main(int argc, char** argv) {
     const poselift::KeyMap keys =
         options.keys.empty() ? poselift::KeyMap() : poselift::KeyMap::Read(options.keys);
     const QApplication application(argc, argv);
-    if (options.inputs.empty() && !poselift::AskForInputs(&options)) return 0;
+    if (!options.pose.empty())
+      poselift::CreatePoseFile(options.pose, options.layout, dictionary.skeleton);
+    else if (options.inputs.empty() && !poselift::AskForInputs(&options))
+      return 0;
     return options.is_live ? poselift::Watch(options, lifter, keys)
                            : poselift::Label(options, lifter, keys);
   } catch (const poselift::InputError& error) {

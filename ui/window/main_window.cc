@@ -36,6 +36,13 @@ namespace {
 
 constexpr double kZoomStep = 1.25;
 
+// The ground that a pose without a picture is shown on.
+QImage EmptyPicture(const FrameLabels& frame) {
+  QImage picture(std::max(frame.width_px, 1), std::max(frame.height_px, 1), QImage::Format_RGB32);
+  picture.fill(QColor(236, 236, 232));
+  return picture;
+}
+
 QString TextOf(std::string_view text) {
   return QString::fromUtf8(text.data(), static_cast<int>(text.size()));
 }
@@ -72,6 +79,7 @@ MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const K
   statusBar()->addPermanentWidget(cursor_);
   AddMenus();
   connect(picture_, &PictureCanvas::Changed, this, &MainWindow::Refresh);
+  connect(pose_, &PoseCanvas::Changed, this, &MainWindow::Refresh);
   connect(picture_, &PictureCanvas::CursorAt, this, [this](double x_px, double y_px) {
     cursor_->setText(QString("%1, %2").arg(x_px, 0, 'f', 1).arg(y_px, 0, 'f', 1));
   });
@@ -139,7 +147,7 @@ void MainWindow::AddMenus() {
         kBack100, kFirstFrame, kLastFrame, kNextUnlabelled, kNextLabelled, kPreviousLabelled}},
       {tr("&Pose"),
        {kNextPose, kKeepPose, kFlipLimb, kTowardsCamera, kAwayFromCamera, kNearer, kOnFloor,
-        kForgetHints}},
+        kForgetHints, kPinJoint, kAddKeyFrame, kRemoveFrame}},
       {tr("&View"),
        {kZoomIn, kZoomOut, kFit, kFullSize, kZoomToBox, kMirrorView, kToggleLoupe, kToggleLabels,
         kToggleEdges, kToggleSkeleton}},
@@ -235,7 +243,8 @@ void MainWindow::ShowKeys() {
   text += "</table>" + tr("<p>Left button: place the joint at hand, or drag any. Right button: "
                           "visible, occluded, absent. Middle button, or space and left, or right "
                           "where no joint is: pan. Wheel: zoom. Digits: to the joint of that "
-                          "number.");
+                          "number. In the 3D view, left: drag a joint, with Shift its limb "
+                          "alone, or turn. Right: pin a joint.");
   auto* const box = new QMessageBox(QMessageBox::NoIcon, tr("Keys"), text, QMessageBox::Ok, this);
   box->setObjectName("keys");
   box->setAttribute(Qt::WA_DeleteOnClose);
@@ -313,7 +322,9 @@ void MainWindow::ShowPicture() {
   if (shown_frame_ == session_.frame_index()) return;
   shown_frame_ = session_.frame_index();
   try {
-    picture_->SetPicture(ImageFrom(pictures_.Read(session_.labels().frames.at(*shown_frame_))));
+    const FrameLabels& frame = session_.labels().frames.at(*shown_frame_);
+    picture_->SetPicture(frame.image.empty() ? EmptyPicture(frame)
+                                             : ImageFrom(pictures_.Read(frame)));
   } catch (const std::exception& error) {
     picture_->SetPicture({});
     statusBar()->showMessage(error.what() + tr("; File, Find moved pictures says where it is now"));

@@ -175,6 +175,8 @@ void MainWindow::ShowHints() {
     QString text = QString::fromStdString(Describe(hints[h]));
     if (std::ranges::count(unmet, static_cast<int>(h)) > 0) text += tr(" (not met)");
     hints_->addItem(text);
+    // Of a pose that was dragged there is one a joint: nothing to read.
+    hints_->item(static_cast<int>(h))->setHidden(IsSoftPin(hints[h]));
   }
 }
 

@@ -222,7 +222,7 @@ void PictureCanvas::PaintLabels(QPainter* painter, const PersonLabels& person,
 void PictureCanvas::PaintPose(QPainter* painter) const {
   const LiftedPose* pose = session_->pose();
   if (!pose) return;
-  const Eigen::Matrix2Xd joints_px = pose->camera.Project(pose->joints_in_cam_m);
+  const Eigen::Matrix2Xd joints_px = session_->PictureCamera().Project(pose->joints_in_cam_m);
   painter->setOpacity(0.65);
   for (int j = 1; j < kNumJoints; ++j) PaintBone(painter, j, joints_px, pose->joints_in_cam_m);
   painter->setOpacity(1.0);

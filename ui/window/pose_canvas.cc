@@ -17,6 +17,12 @@ namespace {
 constexpr double kTurn_rad = 0.009;  // a pixel of the mouse
 constexpr double kStep_rad = 0.15;   // a key
 constexpr int kSmallest = 160, kLargest = 2000;
+constexpr double kReach = 13.0;  // of the mouse, in the widget
+constexpr double kMark = 6.0;    // radius of a pin
+
+QColor ColorFrom(const cv::Scalar& bgr) {
+  return {static_cast<int>(bgr[2]), static_cast<int>(bgr[1]), static_cast<int>(bgr[0])};
+}
 
 }  // namespace
 
@@ -24,35 +30,104 @@ PoseCanvas::PoseCanvas(LabelSession* session, QWidget* parent)
     : QWidget(parent), session_(session) {
   setObjectName("pose");
   setAccessibleName(tr("3D pose"));
-  setToolTip(tr("Drag to turn, wheel to zoom, double click for the camera's view"));
+  setToolTip(
+      tr("Drag a joint, with Shift its limb alone; the right button pins it (K). Drag elsewhere to "
+         "turn, wheel to zoom, double click for the camera's view"));
   setFocusPolicy(Qt::StrongFocus);
+  setMouseTracking(true);
   setMinimumSize(kSmallest, kSmallest);
+}
+
+PoseViewInput PoseCanvas::Input() const {
+  PoseViewInput input{.joints_in_cam_m = session_->pose()->joints_in_cam_m};
+  for (size_t i = 0; i < session_->result().poses.size(); ++i)
+    if (i != session_->pose_index() && !drag_)
+      input.alternatives_in_cam_m.push_back(session_->result().poses[i].joints_in_cam_m);
+  return input;
+}
+
+// The pelvis is where poses are counted from: as it is dragged, the world goes the other way.
+Scene PoseCanvas::Stage() const {
+  if (!drag_) return PoseStage(Input());
+  Scene stage = drag_->stage;
+  if (session_->handles()[drag_->handle].joint == joint::kPelvis) {
+    stage.center_in_cam_m -= drag_->by_m;
+    stage.base_in_cam_m -= drag_->by_m;
+  }
+  return stage;
+}
+
+int PoseCanvas::Side_px() const {
+  return std::clamp(static_cast<int>(devicePixelRatioF() * std::min(width(), height())), kSmallest,
+                    kLargest);
+}
+
+Eigen::Vector2d PoseCanvas::ToPanel(const QPointF& x_in_widget) const {
+  const double ratio = devicePixelRatioF(), side = Side_px() / ratio;
+  return ratio * Eigen::Vector2d(x_in_widget.x() - (width() - side) / 2.0,
+                                 x_in_widget.y() - (height() - side) / 2.0);
+}
+
+QPointF PoseCanvas::ToWidget(const Eigen::Vector2d& x_px) const {
+  const double ratio = devicePixelRatioF(), side = Side_px() / ratio;
+  return {x_px.x() / ratio + (width() - side) / 2.0, x_px.y() / ratio + (height() - side) / 2.0};
+}
+
+std::optional<QPointF> PoseCanvas::HandleAt(size_t handle) const {
+  if (!session_->pose()) return std::nullopt;
+  const Eigen::Vector3d x_m = session_->handles()[handle].In(session_->pose()->joints_in_cam_m);
+  return ToWidget(PoseProjection(Stage(), orbit_, Side_px()).Flat(x_m));
+}
+
+std::optional<size_t> PoseCanvas::Hit(const QPointF& x_in_widget) const {
+  if (!session_->pose()) return std::nullopt;
+  return HitHandle(session_->handles(), session_->pose()->joints_in_cam_m,
+                   PoseProjection(Stage(), orbit_, Side_px()), ToPanel(x_in_widget),
+                   kReach * devicePixelRatioF());
 }
 
 void PoseCanvas::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
-  const cv::Scalar& paper = palette::kPaper;
-  painter.fillRect(rect(), QColor(static_cast<int>(paper[2]), static_cast<int>(paper[1]),
-                                  static_cast<int>(paper[0])));
-  const LiftedPose* pose = session_->pose();
-  if (!pose) {
+  painter.fillRect(rect(), ColorFrom(palette::kPaper));
+  if (!session_->pose()) {
     painter.setPen(Qt::black);
     painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
                      QString::fromStdString(session_->result().message));
     return;
   }
-  PoseViewInput input{.joints_in_cam_m = pose->joints_in_cam_m};
-  for (size_t i = 0; i < session_->result().poses.size(); ++i)
-    if (i != session_->pose_index())
-      input.alternatives_in_cam_m.push_back(session_->result().poses[i].joints_in_cam_m);
-  const double ratio = devicePixelRatioF();
-  const int side_px =
-      std::clamp(static_cast<int>(ratio * std::min(width(), height())), kSmallest, kLargest);
-  const cv::Mat panel = DrawPoseFrom(input, orbit_, side_px);
+  const Scene stage = Stage();
+  const cv::Mat panel = DrawPoseFrom(Input(), orbit_, Side_px(), &stage);
   const QImage image(panel.data, panel.cols, panel.rows, static_cast<int>(panel.step),
                      QImage::Format_BGR888);
-  const double side = side_px / ratio;
+  const double side = Side_px() / devicePixelRatioF();
   painter.drawImage(QRectF((width() - side) / 2.0, (height() - side) / 2.0, side, side), image);
+  PaintHandles(&painter);
+}
+
+// A ring around what a press takes, a diamond on what is pinned and a line to where that is wanted.
+void PoseCanvas::PaintHandles(QPainter* painter) const {
+  const Projection projection = PoseProjection(Stage(), orbit_, Side_px());
+  painter->setRenderHint(QPainter::Antialiasing);
+  const auto hovered = drag_ ? std::optional<size_t>(drag_->handle) : session_->hovered();
+  for (size_t h = 0; h < session_->handles().size(); ++h) {
+    const Eigen::Vector3d x_m = session_->handles()[h].In(session_->pose()->joints_in_cam_m);
+    const QPointF at = ToWidget(projection.Flat(x_m));
+    if (const auto wanted_m = session_->PinnedAt(h)) {
+      const QPointF wanted = ToWidget(projection.Flat(*wanted_m));
+      painter->setPen(QPen(ColorFrom(palette::kError), 2.0));
+      if (QLineF(at, wanted).length() > kMark) painter->drawLine(at, wanted);
+      painter->setPen(QPen(ColorFrom(palette::kInk), 1.5));
+      painter->setBrush(ColorFrom(palette::kError));
+      painter->drawPolygon(QPolygonF({at + QPointF(0, -kMark), at + QPointF(kMark, 0),
+                                      at + QPointF(0, kMark), at + QPointF(-kMark, 0)}));
+    }
+    if (hovered != h) continue;
+    painter->setBrush(Qt::NoBrush);
+    painter->setPen(QPen(ColorFrom(palette::kInk), 2.0));
+    painter->drawEllipse(at, 1.8 * kMark, 1.8 * kMark);
+    painter->drawText(at + QPointF(2.2 * kMark, -kMark),
+                      QString::fromStdString(session_->handles()[h].name).replace('_', ' '));
+  }
 }
 
 void PoseCanvas::Turn(double yaw_rad, double pitch_rad) {
@@ -61,13 +136,73 @@ void PoseCanvas::Turn(double yaw_rad, double pitch_rad) {
   update();
 }
 
-void PoseCanvas::mousePressEvent(QMouseEvent* event) { dragged_from_ = event->position(); }
+void PoseCanvas::mousePressEvent(QMouseEvent* event) {
+  const auto hit = Hit(event->position());
+  if (event->button() == Qt::RightButton && hit && !drag_) {
+    session_->TogglePin(*hit);
+    emit Changed();
+    return;
+  }
+  if (event->button() != Qt::LeftButton || drag_) return;
+  turned_from_ = event->position();
+  turns_ = !hit;
+  if (!hit) return;
+  const bool by_angles = event->modifiers() & Qt::ShiftModifier;
+  const Scene stage = Stage();
+  if (session_->PressHandle(*hit, by_angles ? PoseDrag::Way::kByAngles : PoseDrag::Way::kFree)) {
+    const Eigen::Vector3d from_m =
+        session_->handles()[*hit].In(session_->pose()->joints_in_cam_m);
+    const Projection projection = PoseProjection(stage, orbit_, Side_px());
+    drag_ = Drag{.handle = *hit,
+                 .pressed = event->position(),
+                 .grab_px = projection.Flat(from_m) - ToPanel(event->position()),
+                 .from_in_cam_m = from_m,
+                 .stage = stage};
+  }
+  emit Changed();
+}
+
+void PoseCanvas::MoveTo(const QPointF& x_in_widget) {
+  constexpr double kShake = 3.0;
+  drag_->is_moved |= QLineF(drag_->pressed, x_in_widget).length() > kShake;
+  if (!drag_->is_moved) return;
+  const Eigen::Vector3d to_m =
+      PoseProjection(drag_->stage, orbit_, Side_px())
+          .InCam(ToPanel(x_in_widget) + drag_->grab_px, drag_->from_in_cam_m);
+  drag_->by_m = to_m - drag_->from_in_cam_m;
+  session_->MoveHandle(to_m);
+  emit Changed();
+}
 
 void PoseCanvas::mouseMoveEvent(QMouseEvent* event) {
-  if (event->buttons() == Qt::NoButton) return;
-  const QPointF by = event->position() - dragged_from_;
-  dragged_from_ = event->position();
+  if (drag_) return MoveTo(event->position());
+  if (event->buttons() == Qt::NoButton) {
+    const auto hit = Hit(event->position());
+    if (hit == session_->hovered()) return;
+    session_->Hover(hit);
+    setCursor(hit ? Qt::PointingHandCursor : Qt::ArrowCursor);
+    emit Changed();
+    return;
+  }
+  if (!turns_) return;
+  const QPointF by = event->position() - turned_from_;
+  turned_from_ = event->position();
   Turn(-kTurn_rad * by.x(), kTurn_rad * by.y());
+}
+
+void PoseCanvas::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return;
+  turns_ = false;
+  if (!drag_) return;
+  drag_.reset();
+  session_->Release();
+  emit Changed();
+}
+
+void PoseCanvas::leaveEvent(QEvent* /*event*/) {
+  if (!session_->hovered()) return;
+  session_->Hover({});
+  emit Changed();
 }
 
 void PoseCanvas::mouseDoubleClickEvent(QMouseEvent* /*event*/) {

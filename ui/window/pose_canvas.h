@@ -9,10 +9,14 @@
 #include "src/draw/pose_view.h"
 #include "ui/label/label_session.h"
 
+class QPainter;
+
 namespace poselift {
 
-// The pose at hand in space, on its floor, with the other poses that fit as ghosts. Dragging
-// turns it, the wheel zooms, a double click looks from where the camera is.
+// The pose at hand in space, on its floor, with the other poses that fit as ghosts. A joint that is
+// pressed is dragged, in the plane of the view through it; with Shift its limb follows alone, the
+// right button pins it. Dragging elsewhere turns the pose, the wheel zooms, a double click looks
+// from where the camera is.
 class PoseCanvas : public QWidget {
   Q_OBJECT
 
@@ -21,21 +25,46 @@ class PoseCanvas : public QWidget {
 
   const PoseOrbit& orbit() const { return orbit_; }
   QSize sizeHint() const override { return {460, 460}; }
+  // Where a handle of the session's pose is in the widget; nothing without a pose.
+  std::optional<QPointF> HandleAt(size_t handle) const;
+
+ signals:
+  void Changed();  // labels or what is at hand
 
  protected:
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+  void leaveEvent(QEvent* event) override;
 
  private:
+  struct Drag {
+    size_t handle = 0;
+    QPointF pressed;
+    Eigen::Vector2d grab_px;            // from the mouse to the joint
+    Eigen::Vector3d from_in_cam_m, by_m = Eigen::Vector3d::Zero();
+    Scene stage;                        // the view stands still
+    bool is_moved = false;
+  };
+  PoseViewInput Input() const;
+  Scene Stage() const;
+  int Side_px() const;
+  Eigen::Vector2d ToPanel(const QPointF& x_in_widget) const;
+  QPointF ToWidget(const Eigen::Vector2d& x_px) const;
+  std::optional<size_t> Hit(const QPointF& x_in_widget) const;
+  void MoveTo(const QPointF& x_in_widget);
+  void PaintHandles(QPainter* painter) const;
   void Turn(double yaw_rad, double pitch_rad);
 
   LabelSession* session_;
   PoseOrbit orbit_;
-  QPointF dragged_from_;
+  QPointF turned_from_;
+  bool turns_ = false;
+  std::optional<Drag> drag_;
 };
 
 }  // namespace poselift
