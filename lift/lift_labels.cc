@@ -145,7 +145,7 @@ PersonPose ToPersonPose(const LiftResult& result, const Observation& observation
   for (size_t i = 0; i < observation.points.size(); ++i)
     if (observation.points[i].kind == ObservedPoint::Kind::k2D)
       person.per_joint_px.emplace_back(observation.points[i].name,
-                                     best.point_errors[static_cast<Eigen::Index>(i)]);
+                                       best.point_errors[static_cast<Eigen::Index>(i)]);
   for (size_t i = 0; i < best.code.atoms.size(); ++i)
     person.atoms.emplace_back(best.code.atoms[i],
                               best.code.coefficients[static_cast<Eigen::Index>(i)]);

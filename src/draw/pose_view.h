@@ -47,8 +47,8 @@ struct PoseOrbit {
   double yaw_rad = 0.7, pitch_rad = 0.35;
   double zoom = 1.0;
 };
-// stage: of a pose that keeps the middle, the size and the floor of the picture while the pose in it
-// changes, as under a mouse that drags.
+// stage: of a pose that keeps the middle, the size and the floor of the picture while the pose in
+// it changes, as under a mouse that drags.
 cv::Mat DrawPoseFrom(const PoseViewInput& input, const PoseOrbit& orbit, int side_px,
                      const Scene* stage = nullptr);
 // The stage of a pose, and where DrawPoseFrom shows the points on it.

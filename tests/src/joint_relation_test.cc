@@ -85,6 +85,13 @@ TEST(JointRelation, APinIsThreeRowsFromThePelvis) {
   }
 }
 
+TEST(JointRelation, APinIsAsFirmAsItSays) {
+  const Eigen::Vector3d beside_m =
+      Pose().col(joint::kLeftWrist) - Pose().col(joint::kPelvis) + Eigen::Vector3d(0.1, 0.0, 0.0);
+  EXPECT_THAT(Unmet({{Kind::kPin, "left_wrist", "", 0.06, beside_m}}), IsEmpty());
+  EXPECT_THAT(Unmet({{Kind::kPin, "left_wrist", "", 0.04, beside_m}}), ElementsAre(0));
+}
+
 TEST(JointRelation, ALandmarkIsTheSumOfItsJoints) {
   const Layout& layout = *FindLayout("body15");
   const auto relations = RelationsOf({{Kind::kNearer, "left_wrist", "neck", 0.0}}, layout);
@@ -133,6 +140,28 @@ TEST(RelationOptions, ValidateNamesTheOptionThatIsWrong) {
   EXPECT_THAT(RelationOptions{.sigma_m = 0.0}.Validate(), HasSubstr("sigma_m"));
   EXPECT_THAT(RelationOptions{.least_depth_m = -1.0}.Validate(), HasSubstr("least_depth_m"));
   EXPECT_THAT(RelationOptions{.floor_sigma_m = NAN}.Validate(), HasSubstr("floor_sigma_m"));
+}
+
+TEST(Observe, PinsAloneArePointsBesideThePelvis) {
+  PersonLabels labels;
+  for (const char* name : {"left_wrist", "right_wrist", "left_ankle"})
+    labels.hints.push_back({Kind::kPin, name, "", 0.1, {0.1, 0.2, 0.3}});
+  EXPECT_TRUE(Observe(labels, Joints23()).points.empty());  // three are too few
+  labels.hints.push_back({Kind::kPin, "head", "", {}, {0.0, -0.7, 0.0}});
+  Observation observation = Observe(labels, Joints23());
+  ASSERT_EQ(observation.points.size(), 5u);
+  EXPECT_TRUE(observation.relations.empty());
+  EXPECT_EQ(observation.points[0].name, "pelvis");
+  EXPECT_EQ(observation.points[1].sigma, 0.1);
+  EXPECT_EQ(observation.points[4].hint, 3);
+  EXPECT_LT(observation.points[4].sigma, 0.05);
+  for (const char* name : {"thorax", "left_hip", "right_hip"})
+    labels.landmarks.push_back({name, {1.0, 2.0}, LabelState::kVisible, {}});
+  EXPECT_EQ(Observe(labels, Joints23()).Count(ObservedPoint::Kind::k2D), 0);  // they wait
+  labels.landmarks.push_back({"left_knee", {5.0, 9.0}, LabelState::kVisible, {}});
+  observation = Observe(labels, Joints23());
+  EXPECT_EQ(observation.points.size(), 4u);
+  EXPECT_EQ(observation.relations.size(), 12u);
 }
 
 TEST(Observe, HintsAreRelationsAndTheStature) {

@@ -233,9 +233,10 @@ TEST(NativeLabels, SayWhatNoLandmarkShows) {
       WithHints(R"({"kind": "nearer", "joint": "left_wrist", "than": "right_hand", "metres": 0.1},
   {"kind": "towards_camera", "joint": "left_knee"}, {"kind": "away_from_camera", "joint": "head"},
   {"kind": "on_floor", "joint": "left_foot"}, {"kind": "height", "metres": 1.82},
-  {"kind": "pin", "joint": "right_wrist", "x_in_cam": [0.31, -0.2, -4.5e-1]})"));
+  {"kind": "pin", "joint": "right_wrist", "x_in_cam": [0.31, -0.2, -4.5e-1]},
+  {"kind": "pin", "joint": "left_foot", "metres": 0.05, "x_in_cam": [0, 1, 0]})"));
   const auto& hints = labels.frames[0].people[0].hints;
-  ASSERT_EQ(hints.size(), 6u);
+  ASSERT_EQ(hints.size(), 7u);
   EXPECT_EQ(hints[0].kind, LabelHint::Kind::kNearer);
   EXPECT_EQ(hints[0].joint, "left_wrist");
   EXPECT_EQ(hints[0].other, "right_hand");
@@ -249,13 +250,15 @@ TEST(NativeLabels, SayWhatNoLandmarkShows) {
   EXPECT_EQ(hints[4].metres_m, 1.82);
   EXPECT_EQ(hints[5].kind, LabelHint::Kind::kPin);
   EXPECT_EQ(hints[5].x_in_cam_m, Eigen::Vector3d(0.31, -0.2, -0.45));
+  EXPECT_EQ(hints[5].metres_m, std::nullopt);
+  EXPECT_EQ(hints[6].metres_m, 0.05);
   EXPECT_EQ(labels.layout, "body15");
 
   const auto path = testing::ScratchDir() / "hints.json";
   const auto twice = testing::ScratchDir() / "hints_twice.json";
   WriteLabels(labels, path);
   const Labels again = ReadLabels(path);
-  EXPECT_EQ(again.frames[0].people[0].hints.size(), 6u);
+  EXPECT_EQ(again.frames[0].people[0].hints.size(), 7u);
   WriteLabels(again, twice);
   EXPECT_EQ(testing::FileText(twice), testing::FileText(path));
 }

@@ -122,8 +122,8 @@ bool LabelSteps::MergesWithLast(const LabelEdit& edit) const {
   if (sealed_ || edit.merge_key.empty() || applied_ == 0) return false;
   const LabelEdit& last = all_[applied_ - 1].edit;
   return last.merge_key == edit.merge_key && last.added.empty() && edit.added.empty() &&
-         last.dropped == 0 && edit.dropped == 0 &&
-         HaveEqualKeys(last.people, edit.people) && HaveEqualKeys(last.images, edit.images);
+         last.dropped == 0 && edit.dropped == 0 && HaveEqualKeys(last.people, edit.people) &&
+         HaveEqualKeys(last.images, edit.images);
 }
 
 void LabelSteps::Push(LabelEdit edit, LabelEdit before) {

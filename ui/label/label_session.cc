@@ -190,7 +190,9 @@ void LabelSession::Advance() {
 
 void LabelSession::Apply(LabelEdit edit) {
   try {
-    if (project_->Apply(std::move(edit))) Ask();
+    if (!project_->Apply(std::move(edit))) return;
+    frame_index_ = std::min(frame_index_, labels().frames.size() - 1);  // it may be one that went
+    Ask();
   } catch (const InputError& error) {  // of what labels cannot hold, or of others who hold them
     notice_ = error.what();
   }

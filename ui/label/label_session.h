@@ -57,8 +57,8 @@ class LabelSession {
   void Release();
   bool CycleStateAt(const Eigen::Vector2d& x_px, double reach_px);
 
-  // The mouse on the pose in space: a handle that is pressed and moved is dragged (PoseDrag), as one
-  // step; the pose answers on the way. Release() ends it.
+  // The mouse on the pose in space: a handle that is pressed and moved is dragged (PoseDrag), as
+  // one step; the pose answers on the way. Release() ends it.
   const std::vector<PoseHandle>& handles() const { return handles_; }
   void Hover(std::optional<size_t> handle);
   std::optional<size_t> hovered() const { return hovered_; }

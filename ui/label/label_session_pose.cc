@@ -33,7 +33,8 @@ bool LabelSession::PressHandle(size_t handle, PoseDrag::Way way) {
   const bool is_pelvis = pressed.joint == joint::kPelvis;
   const std::vector<LabelHint> hints = Hints();
   if (way == PoseDrag::Way::kByAngles && !is_pelvis && LimbUpTo(pressed.joint).empty()) {
-    notice_ = fmt::format("the {} goes with the trunk: drag it without Shift", InWords(pressed.name));
+    notice_ =
+        fmt::format("the {} goes with the trunk: drag it without Shift", InWords(pressed.name));
     return false;
   }
   if (is_pelvis && HasLabelsInForce() && std::ranges::none_of(hints, IsFirmPin)) {
@@ -123,7 +124,8 @@ bool LabelSession::DoPose(Action action) {
 
 void LabelSession::ChangeFrames(bool adds) {
   try {
-    LabelEdit edit = adds ? AddKeyFrame(labels(), frame_index_) : RemoveKeyFrame(labels(), frame_index_);
+    LabelEdit edit =
+        adds ? AddKeyFrame(labels(), frame_index_) : RemoveKeyFrame(labels(), frame_index_);
     const size_t before = labels().frames.size();
     Apply(std::move(edit));
     if (labels().frames.size() != before) GoToFrame(adds ? frame_index_ + 1 : frame_index_);

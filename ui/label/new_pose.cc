@@ -52,7 +52,8 @@ void CreatePoseFile(const std::filesystem::path& file, const std::string& layout
                     const Skeleton& skeleton) {
   if (std::filesystem::exists(file)) return;
   const Layout* found = FindLayout(layout);
-  if (!found) throw InputError(fmt::format("found no layout \"{}\", wanted one, such as body15", layout));
+  if (!found)
+    throw InputError(fmt::format("found no layout \"{}\", wanted one, such as body15", layout));
   PrepareFolderOf(file);
   CreateLabelsFile(file, NewPose(*found, skeleton));
 }

@@ -23,23 +23,23 @@ LabelHint Pin(const PoseHandle& handle, const Eigen::Vector3d& x_in_cam_m,
 }
 
 const LabelHint* FindFirm(const std::vector<LabelHint>& hints, const PoseHandle& handle) {
-  const auto found = std::ranges::find_if(hints, [&](const LabelHint& hint) {
-    return IsFirmPin(hint) && hint.joint == handle.name;
-  });
+  const auto found = std::ranges::find_if(
+      hints, [&](const LabelHint& hint) { return IsFirmPin(hint) && hint.joint == handle.name; });
   return found == hints.end() ? nullptr : &*found;
 }
 
 bool HasSoft(const std::vector<LabelHint>& hints, const PoseHandle& handle) {
-  return std::ranges::any_of(hints, [&](const LabelHint& hint) {
-    return IsSoftPin(hint) && hint.joint == handle.name;
-  });
+  return std::ranges::any_of(
+      hints, [&](const LabelHint& hint) { return IsSoftPin(hint) && hint.joint == handle.name; });
 }
 
 bool IsOfLeg(int joint) {
   return HangsOn(joint, joint::kLeftHip) || HangsOn(joint, joint::kRightHip);
 }
 
-bool Has(const std::vector<int>& joints, int joint) { return std::ranges::count(joints, joint) > 0; }
+bool Has(const std::vector<int>& joints, int joint) {
+  return std::ranges::count(joints, joint) > 0;
+}
 
 }  // namespace
 
@@ -99,8 +99,7 @@ std::vector<LabelHint> PoseDrag::FreePins(const Eigen::Vector3d& by_m) const {
     if (&other == &handle() || !MaySoften(other)) continue;
     const bool goes_along = HangsOn(other.joint, handle().joint);
     const bool gives_way = Has(limb_, other.joint);
-    pins.push_back(Pin(other,
-                       size * (other.In(joints_m) + (goes_along ? 1.0 : 0.0) * by_m),
+    pins.push_back(Pin(other, size * (other.In(joints_m) + (goes_along ? 1.0 : 0.0) * by_m),
                        gives_way ? kLoose_m : kSoft_m));
   }
   return pins;
@@ -131,8 +130,7 @@ std::vector<LabelHint> PoseDrag::PinsUnderPelvis(const Eigen::Vector3d& by_m) co
     } else if (MaySoften(other)) {
       Eigen::Vector3d x_m = other.In(start_.pose.joints_in_cam_m);
       if (IsOfLeg(other.joint)) x_m -= by_m;
-      const bool is_knee =
-          other.joint == joint::kLeftKnee || other.joint == joint::kRightKnee;
+      const bool is_knee = other.joint == joint::kLeftKnee || other.joint == joint::kRightKnee;
       pins.push_back(Pin(other, size * x_m, is_knee ? kLoose_m : kSoft_m));
     }
   }
@@ -152,8 +150,8 @@ Pose3 PoseDrag::Bent(const Eigen::Vector3d& by_m) const {
     if (is_moved) weights[j] = 0.0;
   }
   const SkeletonPose& start = start_.pose.pose;
-  const IkResult result = ik_->Solve(
-      target_m, {.joint_weights = weights, .start = start, .rest_dofs = start.dofs});
+  const IkResult result =
+      ik_->Solve(target_m, {.joint_weights = weights, .start = start, .rest_dofs = start.dofs});
   SkeletonPose bent = start;
   const Articulation& body = ik_->body();
   for (const int joint : limb_) {

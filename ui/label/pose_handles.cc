@@ -30,9 +30,8 @@ std::vector<PoseHandle> PoseHandles(const Layout& layout) {
     PoseHandle handle{.name = std::string(Joints()[static_cast<size_t>(j)].name), .joint = j};
     handle.parts = PartsNamed(handle.name, layout);
     if (handle.parts.size() == 1) handle.joint = handle.parts.front().joint;
-    const bool is_new = std::ranges::none_of(handles, [&](const PoseHandle& other) {
-      return AreSame(other.parts, handle.parts);
-    });
+    const bool is_new = std::ranges::none_of(
+        handles, [&](const PoseHandle& other) { return AreSame(other.parts, handle.parts); });
     if (is_new) handles.push_back(std::move(handle));
   }
   return handles;
@@ -48,8 +47,8 @@ std::optional<size_t> HitHandle(const std::vector<PoseHandle>& handles,
     const double distance_px = (at.head<2>() - x_px).norm();
     if (!(distance_px <= reach_px)) continue;
     // A body's thickness of depth counts as much as what is called one place.
-    const double cost = distance_px + kAtOnePlace * reach_px * at.z() /
-                                          (0.2 * projection.scale_px_per_m);
+    const double cost =
+        distance_px + kAtOnePlace * reach_px * at.z() / (0.2 * projection.scale_px_per_m);
     if (hit && !(cost < least)) continue;
     hit = h;
     least = cost;

@@ -150,8 +150,7 @@ void PoseCanvas::mousePressEvent(QMouseEvent* event) {
   const bool by_angles = event->modifiers() & Qt::ShiftModifier;
   const Scene stage = Stage();
   if (session_->PressHandle(*hit, by_angles ? PoseDrag::Way::kByAngles : PoseDrag::Way::kFree)) {
-    const Eigen::Vector3d from_m =
-        session_->handles()[*hit].In(session_->pose()->joints_in_cam_m);
+    const Eigen::Vector3d from_m = session_->handles()[*hit].In(session_->pose()->joints_in_cam_m);
     const Projection projection = PoseProjection(stage, orbit_, Side_px());
     drag_ = Drag{.handle = *hit,
                  .pressed = event->position(),

@@ -45,9 +45,9 @@ class PoseCanvas : public QWidget {
   struct Drag {
     size_t handle = 0;
     QPointF pressed;
-    Eigen::Vector2d grab_px;            // from the mouse to the joint
+    Eigen::Vector2d grab_px;  // from the mouse to the joint
     Eigen::Vector3d from_in_cam_m, by_m = Eigen::Vector3d::Zero();
-    Scene stage;                        // the view stands still
+    Scene stage;  // the view stands still
     bool is_moved = false;
   };
   PoseViewInput Input() const;

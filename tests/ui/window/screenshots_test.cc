@@ -10,12 +10,14 @@
 #include <QCursor>
 #include <QPalette>
 #include <QTest>
+#include <algorithm>
 #include <condition_variable>
 #include <cstdlib>
 #include <mutex>
 
 #include "src/io/video.h"
 #include "tests/ui/window/sample_window.h"
+#include "ui/label/new_pose.h"
 #include "ui/live/live_inputs.h"
 #include "ui/window/live_window.h"
 #include "ui/window/welcome.h"
@@ -124,6 +126,43 @@ TEST_F(Screenshots, OfACameraIsTaken) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return live.status().num_pictures == HeldClip::kFrames; },
                               kPatience_ms));
   Take("label-live", &live);
+}
+
+TEST_F(Screenshots, OfAPoseFromNothing) {
+  const auto file = folder_ / "hero.labels.json";
+  for (const char* left : {"hero.labels.json", ".hero.labels.json.journal"})
+    testing::fs::remove(folder_ / left);
+  CreatePoseFile(file, "body15", dictionary_.skeleton);
+  LabelProject project(file);
+  MainWindow window(&project, lifter_, KeyMap());
+  window.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
+  LabelSession& session = window.session();
+  const auto solve = [&] {
+    session.WaitUntilSolved();
+    window.Refresh();
+  };
+  solve();
+  Take("label-new-pose", &window);
+  auto* const pose = window.findChild<PoseCanvas*>("pose");
+  const auto at = [&](std::string_view name) {
+    const auto handle = std::ranges::find(session.handles(), name, &PoseHandle::name);
+    return pose->HandleAt(static_cast<size_t>(handle - session.handles().begin()))->toPoint();
+  };
+  QTest::mouseClick(pose, Qt::RightButton, {}, at("right_ankle"));
+  solve();
+  for (const auto& [name, by] : {std::pair{"left_wrist", QPoint(40, -110)},
+                                 {"right_wrist", QPoint(-30, -60)},
+                                 {"left_knee", QPoint(10, -45)}}) {
+    const QPoint from = at(name);
+    QTest::mousePress(pose, Qt::LeftButton, {}, from);
+    QTest::mouseMove(pose, from + by);
+    solve();
+    QTest::mouseRelease(pose, Qt::LeftButton, {}, from + by);
+    solve();
+  }
+  QTest::mouseMove(pose, at("right_elbow"));
+  Take("label-posing", &window);
 }
 
 }  // namespace
