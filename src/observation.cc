@@ -33,7 +33,7 @@ void ObservePins(const std::vector<LabelHint>& hints, const Layout& layout, doub
                                      .kind = ObservedPoint::Kind::k3D,
                                      .x = hint.x_in_cam_m,
                                      .sigma = hint.metres_m.value_or(sigma_m),
-                                     .hint = i});
+                                     .hint = hint.metres_m ? -1 : i});
   }
   std::erase_if(observation->relations, [&](const JointRelation& relation) {
     return IsPin(hints[static_cast<size_t>(relation.hint)]);

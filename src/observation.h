@@ -25,7 +25,7 @@ struct ObservedPoint {
   Eigen::Vector3d x = Eigen::Vector3d::Zero();  // k2D: (x_px, y_px, 0); k3D: x_in_cam_m
   double sigma = 1.0;                           // px or m
   LabelState state = LabelState::kVisible;
-  int hint = -1;  // of PersonLabels::hints, when a pin is what it comes from
+  int hint = -1;  // of PersonLabels::hints, of a firm pin
 };
 
 // The pose of a tag that is fixed to a bone, measured in space. Its residual is
