@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "lift/body_proportions.h"
 #include "lift/depth_mirror.h"
 #include "ui/label/label_edits.h"
 #include "ui/label/label_session.h"
@@ -72,8 +73,18 @@ void LabelSession::KeepPose() {
   Give(std::move(hints));
 }
 
+// What pins alone have made grows with the person.
 void LabelSession::GiveHeight(double height_m) {
-  Give({{.kind = LabelHint::Kind::kHeight, .metres_m = height_m}});
+  std::vector<LabelHint> hints = {{.kind = LabelHint::Kind::kHeight, .metres_m = height_m}};
+  if (pose() && !HasLabelsInForce()) {
+    const double before_m = pose()->size * Stature_m(lifter_.dictionary().skeleton);
+    for (LabelHint hint : Hints()) {
+      if (hint.kind != LabelHint::Kind::kPin) continue;
+      hint.x_in_cam_m *= height_m / before_m;
+      hints.push_back(hint);
+    }
+  }
+  Give(std::move(hints));
 }
 
 void LabelSession::RemoveHintAt(size_t index) {

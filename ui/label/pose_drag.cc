@@ -11,6 +11,7 @@ namespace {
 // Standard deviations: of what is to stay, of what must give way, of what holds still; the last
 // weaker than labels where there are any.
 constexpr double kSoft_m = 0.05, kLoose_m = 0.15, kStill_m = 0.01, kStillBesideLabels_m = 0.04;
+constexpr double kFarthest_m = 5.0;  // a mouse may leave the window
 // Of what is to hold still in inverse kinematics, where the joint that is dragged has 1.
 constexpr double kHeavy = 30.0;
 
@@ -19,7 +20,7 @@ LabelHint Pin(const PoseHandle& handle, const Eigen::Vector3d& x_in_cam_m,
   return {.kind = LabelHint::Kind::kPin,
           .joint = handle.name,
           .metres_m = sigma_m,
-          .x_in_cam_m = x_in_cam_m};
+          .x_in_cam_m = x_in_cam_m.cwiseMax(-kFarthest_m).cwiseMin(kFarthest_m)};
 }
 
 const LabelHint* FindFirm(const std::vector<LabelHint>& hints, const PoseHandle& handle) {
@@ -125,8 +126,7 @@ std::vector<LabelHint> PoseDrag::PinsUnderPelvis(const Eigen::Vector3d& by_m) co
   for (const PoseHandle& other : start_.handles) {
     if (other.joint == joint::kPelvis) continue;
     if (const LabelHint* firm = FindFirm(start_.hints, other)) {
-      pins.push_back(*firm);
-      pins.back().x_in_cam_m -= size * by_m;
+      pins.push_back(Pin(other, firm->x_in_cam_m - size * by_m));
     } else if (MaySoften(other)) {
       Eigen::Vector3d x_m = other.In(start_.pose.joints_in_cam_m);
       if (IsOfLeg(other.joint)) x_m -= by_m;

@@ -11,4 +11,10 @@ QImage ImageFrom(const cv::Mat& bgr) {
       .convertToFormat(QImage::Format_RGB32);
 }
 
+QImage EmptyPicture(const QSize& size_px) {
+  QImage picture(size_px, QImage::Format_RGB32);
+  picture.fill(QColor(236, 236, 232));
+  return picture;
+}
+
 }  // namespace poselift

@@ -10,4 +10,7 @@ namespace poselift {
 // A BGR picture for the screen.
 QImage ImageFrom(const cv::Mat& bgr);
 
+// The ground that a pose without a picture is shown on; null for no size.
+QImage EmptyPicture(const QSize& size_px);
+
 }  // namespace poselift

@@ -36,13 +36,6 @@ namespace {
 
 constexpr double kZoomStep = 1.25;
 
-// The ground that a pose without a picture is shown on.
-QImage EmptyPicture(const FrameLabels& frame) {
-  QImage picture(std::max(frame.width_px, 1), std::max(frame.height_px, 1), QImage::Format_RGB32);
-  picture.fill(QColor(236, 236, 232));
-  return picture;
-}
-
 QString TextOf(std::string_view text) {
   return QString::fromUtf8(text.data(), static_cast<int>(text.size()));
 }
@@ -120,6 +113,7 @@ void MainWindow::AddMenus() {
       ->setObjectName("open");
   file->addAction(tr("Watch a &camera..."), this, &MainWindow::WatchCamera)
       ->setObjectName("watch_camera");
+  file->addAction(tr("&New pose..."), this, &MainWindow::NewPose)->setObjectName("new_pose");
   Add(file, Action::kSave);
   file->addAction(tr("&Find moved pictures..."), this, &MainWindow::FindPictures)
       ->setObjectName("find_pictures");
@@ -269,6 +263,14 @@ void MainWindow::WatchCamera() {
     QProcess::startDetached(QCoreApplication::applicationFilePath(), arguments);
 }
 
+void MainWindow::NewPose() {
+  QString file = QFileDialog::getSaveFileName(this, tr("A pose without a picture"),
+                                              "pose.labels.json", tr("Labels (*.json)"), nullptr,
+                                              QFileDialog::DontConfirmOverwrite);
+  if (!file.isEmpty())
+    QProcess::startDetached(QCoreApplication::applicationFilePath(), {"--pose", file});
+}
+
 void MainWindow::AskHeight() {
   bool is_given = false;
   const double height_cm = QInputDialog::getDouble(this, tr("Height of the person"),
@@ -323,7 +325,7 @@ void MainWindow::ShowPicture() {
   shown_frame_ = session_.frame_index();
   try {
     const FrameLabels& frame = session_.labels().frames.at(*shown_frame_);
-    picture_->SetPicture(frame.image.empty() ? EmptyPicture(frame)
+    picture_->SetPicture(frame.image.empty() ? EmptyPicture({frame.width_px, frame.height_px})
                                              : ImageFrom(pictures_.Read(frame)));
   } catch (const std::exception& error) {
     picture_->SetPicture({});

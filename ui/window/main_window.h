@@ -57,6 +57,7 @@ class MainWindow : public QMainWindow {
   void ShowKeys();
   void Open();
   void WatchCamera();
+  void NewPose();
   void AskExport();
   void SaveScreenshot();
   void ShowPicture();

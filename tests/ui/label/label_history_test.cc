@@ -148,6 +148,8 @@ TEST(LabelHistory, RefusesWhatLabelsCannotHold) {
                                         {"twins", {{0, {{1, {}}, {1, {}}}}}, {}, {}, {}},
                                         {"no such frame", {{6, {}}}, {}, {}, {}},
                                         {"no such frame", {}, {{6, "a.jpg"}}, {}, {}},
+                                        {.name = "too many", .people = {}, .dropped = 7},
+                                        {.name = "gone", .people = {{5, {}}}, .dropped = 1},
                                         {"size", {}, {}, {half_sized}, {}},
                                         {"time", {}, {}, {late}, {}},
                                         {"frame", {}, {}, {early}, {}}};

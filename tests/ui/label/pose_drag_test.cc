@@ -218,6 +218,23 @@ TEST_F(PoseDragTest, APinIsPutWhereTheJointIsAndTakenAgain) {
   EXPECT_LT((Joints_m() - dragged_m).colwise().norm().maxCoeff(), 0.03);
 }
 
+TEST_F(PoseDragTest, AMouseThatLeavesTheWindowAsksForNothingImpossible) {
+  Drag("left_wrist", {1e5, -1e9, 300.0});
+  EXPECT_TRUE(session_->PinnedAt(Handle("left_wrist")));
+  ASSERT_NE(session_->pose(), nullptr);
+  ExpectBonesOfTheSkeletonWithinLimits();
+  for (int i = 0; i < 4; ++i) Drag("pelvis", {0.0, 4.0, 0.0});
+  EXPECT_EQ(WhatIsWrongWith(session_->Hints().back(), session_->layout()), "");
+}
+
+TEST_F(PoseDragTest, AHeightMakesAllOfThePoseSmaller) {
+  const Pose3 before_m = Joints_m();
+  session_->GiveHeight(1.2);
+  session_->WaitUntilSolved();
+  EXPECT_LT(session_->pose()->size, 0.8);
+  EXPECT_LT((Joints_m() - before_m).colwise().norm().maxCoeff(), 0.02);  // at the skeleton's size
+}
+
 TEST_F(PoseDragTest, KeyFramesAreCopiedPosedAndRemoved) {
   session_->Do(Action::kAddKeyFrame);
   EXPECT_EQ(session_->frame_index(), 1U);
