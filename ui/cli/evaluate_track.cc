@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "lift/temporal/resample.h"
+#include "lift/tracking/tag_cost.h"
 #include "src/input_error.h"
 #include "src/io/amc.h"
 #include "src/io/asf.h"

@@ -249,6 +249,7 @@ int Track(Options options) {
   const std::unique_ptr<FrameSource> source = OpenSource(options.inputs);
   const Camera camera = CameraOf(options.inputs, source->size_px());
   options.session.cam_from_world = CamFromWorld(options.inputs);
+  options.session.tracker.depth_sigma = DepthSigma(options.inputs);
   TagSession session(tags, camera, lifter, models.codebook, options.session);
   TellAssumptions(options.inputs);
   TellCamera(*source);

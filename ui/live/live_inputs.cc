@@ -30,6 +30,7 @@ LiveParts OpenLive(LiveInputs inputs, const PhotoLifter& lifter, SystemCalls* sy
   TagSessionOptions options;
   options.search.threads = 2;
   options.cam_from_world = cam_from_world;
+  options.tracker.depth_sigma = DepthSigma(inputs.view);
   parts.tags = std::make_unique<TagSession>(ReadBodyTags(inputs.tags),
                                             CameraOf(inputs.view, parts.source->size_px()), lifter,
                                             ReadModels(inputs.view).codebook, options);

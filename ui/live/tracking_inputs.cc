@@ -13,6 +13,7 @@
 #include "lift/default_dictionary.h"
 #include "lift/dictionary_file.h"
 #include "lift/temporal/motion_codebook_file.h"
+#include "lift/tracking/tag_cost.h"
 #include "src/capture/live_frame_source.h"
 #include "src/capture/open_frame_source.h"
 #include "src/capture/paced_frame_source.h"
@@ -94,6 +95,10 @@ Camera CameraOf(const TrackingInputs& inputs, cv::Size size_px) {
   camera.width_px = size_px.width;
   camera.height_px = size_px.height;
   return camera;
+}
+
+double DepthSigma(const TrackingInputs& inputs) {
+  return inputs.camera.empty() ? kGuessedDepthSigma : 0.0;
 }
 
 Eigen::Quaterniond CamFromWorld(const TrackingInputs& inputs) {

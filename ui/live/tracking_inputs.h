@@ -53,6 +53,9 @@ int64_t NumFrames(const TrackingInputs& inputs);
 // distortion. Throws InputError for a camera of another shape than the pictures'.
 Camera CameraOf(const TrackingInputs& inputs, cv::Size size_px);
 
+// How far depths behind the body's may be off (TagSigmas): not, where the camera is known.
+double DepthSigma(const TrackingInputs& inputs);
+
 // How the camera stands, in a world whose y is up.
 Eigen::Quaterniond CamFromWorld(const TrackingInputs& inputs);
 
