@@ -31,13 +31,15 @@ LabelSession::LabelSession(LabelProject* project, const PhotoLifter& lifter,
       lifter_(lifter),
       layout_(FindLayout(project->labels().layout)),
       wake_(std::move(answered)),
-      solver_(lifter, [this](uint64_t number, const LiftResult& result) {
-        {
-          const std::scoped_lock lock(mutex_);
-          waiting_ = {number, result};
-        }
-        if (wake_) wake_();
-      }) {
+      solver_(lifter,
+              [this](uint64_t number, const LiftResult& result) {
+                {
+                  const std::scoped_lock lock(mutex_);
+                  waiting_ = {number, result};
+                }
+                if (wake_) wake_();
+              }),
+      motion_solver_(lifter, wake_) {
   if (!layout_) throw InputError("found labels without a layout, wanted one, such as body15");
   GoToFrame(0);
 }
@@ -201,14 +203,19 @@ void LabelSession::Ask() {
     observation = Observe(frame.people[person_index_], *layout_);
   const std::scoped_lock lock(mutex_);
   asked_observation_ = observation;
+  if (is_playing_ && ShowsMotion()) {
+    result_ = {};
+    asked_ = answered_ = 0;  // what is still being solved is of a frame gone by
+    return;
+  }
   asked_ = solver_.Ask(std::move(observation));
 }
 
 bool LabelSession::TakeAnswer() {
-  const bool is_followed = TakeFollowed();
+  const bool is_followed = TakeFollowed(), has_motion = TakeMotion();
   const std::scoped_lock lock(mutex_);
   // An older one is of labels that are no more.
-  if (!waiting_ || waiting_->first != asked_) return is_followed;
+  if (!waiting_ || waiting_->first != asked_) return is_followed || has_motion;
   result_ = std::move(waiting_->second);
   waiting_.reset();
   observation_ = asked_observation_;
@@ -227,11 +234,11 @@ const LiftedPose* LabelSession::pose() const {
 }
 
 std::optional<double> LabelSession::Residual_px(std::string_view landmark) const {
-  const LiftedPose* lifted = pose();
+  const LiftedPose* lifted = ShownPose();
   if (!lifted) return std::nullopt;
-  for (size_t i = 0; i < observation_.points.size(); ++i)
-    if (observation_.points[i].name == landmark)
-      return lifted->point_errors[static_cast<Eigen::Index>(i)];
+  const auto& points = observation().points;
+  for (size_t i = 0; i < points.size(); ++i)
+    if (points[i].name == landmark) return lifted->point_errors[static_cast<Eigen::Index>(i)];
   return std::nullopt;
 }
 
@@ -250,8 +257,10 @@ std::filesystem::path LabelSession::PicturePath() const {
 
 void LabelSession::Export(const std::filesystem::path& folder) const {
   std::filesystem::create_directories(folder);
-  WriteLifted(LiftLabels(lifter_, labels(), std::nullopt, {}), labels(),
-              lifter_.dictionary().skeleton, false, kFps, folder);
+  const bool is_motion = WhyFramesAlone(labels()).empty();
+  const LiftedLabels lifted = is_motion ? LiftAsMotion(lifter_, labels(), {})
+                                        : LiftLabels(lifter_, labels(), std::nullopt, {});
+  WriteLifted(lifted, labels(), lifter_.dictionary().skeleton, is_motion, kFps, folder);
 }
 
 std::string LabelSession::Title() const {
@@ -273,12 +282,15 @@ std::string LabelSession::Status() const {
                        InWords(layout_->landmarks[static_cast<size_t>(*nearer_)].name));
   std::string status =
       fmt::format("click: {}", InWords(layout_->landmarks[static_cast<size_t>(landmark_)].name));
-  if (const LiftedPose* lifted = pose())
+  if (ShowsMotion())
+    status += fmt::format("   motion{}, {:.1f} px", IsMotionCurrent() ? "" : " (out of date)",
+                          MotionPose()->reprojection_rms_px);
+  else if (const LiftedPose* lifted = pose())
     status += fmt::format("   pose {} of {}, {:.1f} px", pose_index_ + 1, result_.poses.size(),
                           lifted->reprojection_rms_px);
   else
     status += "   no pose yet: " + result_.message;
-  if (pose() && !pose()->unmet_hints.empty())
+  if (!ShowsMotion() && pose() && !pose()->unmet_hints.empty())
     status += fmt::format("   {} not met: they contradict each other, or the picture",
                           pose()->unmet_hints.size() == 1
                               ? "a hint is"

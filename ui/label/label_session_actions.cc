@@ -31,7 +31,7 @@ bool LabelSession::Do(Action action) {
   notice_.clear();
   nearer_.reset();
   return DoGo(action) || DoOnLandmark(action) || DoOnPerson(action) || DoHint(action) ||
-         DoFlow(action) || DoOnProject(action);
+         DoFlow(action) || DoMotion(action) || DoOnProject(action);
 }
 
 bool LabelSession::DoGo(Action action) {
