@@ -18,9 +18,10 @@
 namespace poselift {
 namespace {
 
-constexpr std::array kFormats = {
-    LiftedFormat{".bvh", "Motion (BVH)"}, LiftedFormat{".amc", "Motion with its skeleton (AMC, ASF)"},
-    LiftedFormat{".csv", "Joint angles (CSV)"}, LiftedFormat{".json", "Poses (JSON)"}};
+constexpr std::array kFormats = {LiftedFormat{".bvh", "Motion (BVH)"},
+                                 LiftedFormat{".amc", "Motion with its skeleton (AMC, ASF)"},
+                                 LiftedFormat{".csv", "Joint angles (CSV)"},
+                                 LiftedFormat{".json", "Poses (JSON)"}};
 
 bool AnyUsable(const LiftedLabels& lifted) {
   for (const auto& people : lifted.results)
@@ -77,8 +78,9 @@ void WriteLiftedMotion(const LiftedLabels& lifted, const Skeleton& skeleton,
         return EqualsIgnoringCase(ending, format.ending);
       }))
     throw InputError(
-        path, fmt::format("found the ending {}, wanted one of {}", Quoted(ending),
-                          fmt::join(kFormats | std::views::transform(&LiftedFormat::ending), ", ")));
+        path,
+        fmt::format("found the ending {}, wanted one of {}", Quoted(ending),
+                    fmt::join(kFormats | std::views::transform(&LiftedFormat::ending), ", ")));
   if (!AnyUsable(lifted)) throw InputError(path, "found no pose to write, wanted a lifted motion");
   if (EqualsIgnoringCase(ending, ".json")) return WritePosesJson(lifted.poses, path);
   if (EqualsIgnoringCase(ending, ".csv")) return WriteAnglesCsv(lifted.poses, path);

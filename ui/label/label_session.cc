@@ -237,8 +237,8 @@ std::optional<double> LabelSession::Residual_px(std::string_view landmark) const
   const LiftedPose* lifted = ShownPose();
   if (!lifted) return std::nullopt;
   const auto& points = observation().points;
-  for (size_t i = 0; i < points.size(); ++i)
-    if (points[i].name == landmark) return lifted->point_errors[static_cast<Eigen::Index>(i)];
+  for (Eigen::Index i = 0; i < std::min(std::ssize(points), lifted->point_errors.size()); ++i)
+    if (points[static_cast<size_t>(i)].name == landmark) return lifted->point_errors[i];
   return std::nullopt;
 }
 
@@ -283,8 +283,10 @@ std::string LabelSession::Status() const {
   std::string status =
       fmt::format("click: {}", InWords(layout_->landmarks[static_cast<size_t>(landmark_)].name));
   if (ShowsMotion())
-    status += fmt::format("   motion{}, {:.1f} px", IsMotionCurrent() ? "" : " (out of date)",
-                          MotionPose()->reprojection_rms_px);
+    status += fmt::format("   motion{}, {}", IsMotionCurrent() ? "" : " (out of date)",
+                          motion_->is_filled[frame_index_]
+                              ? "filled for want of labels"
+                              : fmt::format("{:.1f} px", MotionPose()->reprojection_rms_px));
   else if (const LiftedPose* lifted = pose())
     status += fmt::format("   pose {} of {}, {:.1f} px", pose_index_ + 1, result_.poses.size(),
                           lifted->reprojection_rms_px);

@@ -93,7 +93,8 @@ void LabelSession::ExportMotion(const std::filesystem::path& path) const {
     throw InputError("found no motion to export, wanted one: smooth the motion first");
   if (!IsMotionCurrent())
     throw InputError(
-        "found labels that have changed since the motion was made, wanted a motion of these: smooth "
+        "found labels that have changed since the motion was made, wanted a motion of these: "
+        "smooth "
         "the motion again");
   WriteLiftedMotion(motion_->lifted, lifter_.dictionary().skeleton, path);
 }

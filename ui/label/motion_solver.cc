@@ -81,6 +81,7 @@ void MotionSolver::Run() {
     lock.lock();
     if (motion && wanted_ == request.number) {
       answer_ = std::move(motion);
+      answer_->number = request.number;
       wanted_ = 0;
     }
     lock.unlock();

@@ -14,9 +14,10 @@ namespace poselift {
 
 // One person of labels with times, lifted as one motion.
 struct PersonMotion {
+  std::uint64_t number = 0;  // of the request that it answers; grows
   int person_id = 0;
-  std::string message;   // why there is no motion, in words; empty when there is one
-  LiftedLabels lifted;   // frames as in the labels, nobody else in them; no alternatives
+  std::string message;  // why there is no motion, in words; empty when there is one
+  LiftedLabels lifted;  // frames as in the labels, nobody else in them; no alternatives
   Eigen::VectorXd times_s;
   // JointAngles() x frames, degrees; NaN where there is no pose.
   Eigen::MatrixXd angles_deg, angles_sigma_deg;

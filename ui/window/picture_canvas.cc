@@ -233,7 +233,7 @@ void PictureCanvas::PaintLabels(QPainter* painter, const PersonLabels& person,
 
 // Where the pose has the joints.
 void PictureCanvas::PaintPose(QPainter* painter) const {
-  const LiftedPose* pose = session_->pose();
+  const LiftedPose* pose = session_->ShownPose();
   if (!pose) return;
   const Eigen::Matrix2Xd joints_px = pose->camera.Project(pose->joints_in_cam_m);
   painter->setOpacity(0.65);

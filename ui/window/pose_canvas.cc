@@ -34,7 +34,7 @@ void PoseCanvas::paintEvent(QPaintEvent* /*event*/) {
   const cv::Scalar& paper = palette::kPaper;
   painter.fillRect(rect(), QColor(static_cast<int>(paper[2]), static_cast<int>(paper[1]),
                                   static_cast<int>(paper[0])));
-  const LiftedPose* pose = session_->pose();
+  const LiftedPose* pose = session_->ShownPose();
   if (!pose) {
     painter.setPen(Qt::black);
     painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
@@ -42,8 +42,9 @@ void PoseCanvas::paintEvent(QPaintEvent* /*event*/) {
     return;
   }
   PoseViewInput input{.joints_in_cam_m = pose->joints_in_cam_m};
+  const bool is_motion = session_->ShowsMotion();
   for (size_t i = 0; i < session_->result().poses.size(); ++i)
-    if (i != session_->pose_index())
+    if (!is_motion && i != session_->pose_index())
       input.alternatives_in_cam_m.push_back(session_->result().poses[i].joints_in_cam_m);
   const double ratio = devicePixelRatioF();
   const int side_px =
@@ -53,6 +54,18 @@ void PoseCanvas::paintEvent(QPaintEvent* /*event*/) {
                      QImage::Format_BGR888);
   const double side = side_px / ratio;
   painter.drawImage(QRectF((width() - side) / 2.0, (height() - side) / 2.0, side, side), image);
+  painter.setPen(Qt::black);
+  painter.drawText(rect().adjusted(8, 6, -8, -6), Qt::AlignTop | Qt::AlignLeft, Kind());
+}
+
+// Which pose it is, once there are two kinds.
+QString PoseCanvas::Kind() const {
+  const PersonMotion* const motion = session_->motion();
+  if (!motion || !motion->HasPoses()) return {};
+  if (!session_->ShowsMotion()) return tr("this picture alone");
+  QString kind = tr("smoothed motion");
+  if (motion->is_filled[session_->frame_index()]) kind += tr(", filled for want of labels");
+  return session_->IsMotionCurrent() ? kind : kind + tr(", out of date");
 }
 
 void PoseCanvas::Turn(double yaw_rad, double pitch_rad) {

@@ -11,7 +11,8 @@
 
 namespace poselift {
 
-// The pose at hand in space, on its floor, with the other poses that fit as ghosts. Dragging
+// The pose at hand in space, on its floor, with the other poses that fit as ghosts; or that of the
+// motion, where it is shown. Dragging
 // turns it, the wheel zooms, a double click looks from where the camera is.
 class PoseCanvas : public QWidget {
   Q_OBJECT
@@ -31,6 +32,7 @@ class PoseCanvas : public QWidget {
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
+  QString Kind() const;
   void Turn(double yaw_rad, double pitch_rad);
 
   LabelSession* session_;
