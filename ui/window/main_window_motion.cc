@@ -24,6 +24,7 @@ QString TextOf(std::string_view text) {
 void MainWindow::AddMotion() {
   motion_ = new MotionDock(&session_, keys_, this);
   addDockWidget(Qt::BottomDockWidgetArea, motion_);
+  splitDockWidget(findChild<QDockWidget*>("frames_dock"), motion_, Qt::Vertical);
   docks_.push_back(motion_);
   motion_->setVisible(WhyFramesAlone(session_.labels()).empty());
   connect(motion_, &MotionDock::Asked, this, [this] { Do(Action::kSmoothMotion); });
