@@ -37,7 +37,6 @@ void FramePictures::GoTo(int index) {
   if (index >= next_ && index < next_ + kNear) return;
   if (index >= kNear) {
     if (const auto time_s = times_->Of_s(index)) {
-      ++num_seeks_;
       is_sought_ = true;
       next_ = index;
       bool is_there = false;
@@ -45,6 +44,7 @@ void FramePictures::GoTo(int index) {
         is_there = video_->GoTo(index, *time_s);
       } catch (const InputError&) {  // told when it is met again on the long way
       }
+      num_seeks_ += is_there ? 1 : 0;
       if (is_there) return;
       Open(path_);
     }

@@ -29,7 +29,7 @@ class FramePictures {
   cv::Mat Read(const FrameLabels& frame);
   // Until any frame of the video at hand is reached at once.
   void WaitForTimes();
-  int num_seeks() const { return num_seeks_; }
+  int num_seeks() const { return num_seeks_; }  // that led to their frame
 
  private:
   static constexpr size_t kKept_bytes = 100 << 20;
