@@ -73,7 +73,7 @@ constexpr std::array kActions = {
     ActionInfo{Action::kForgetHints, "forget_hints", "Forget the person's hints", "Shift+B"},
     ActionInfo{Action::kSmoothMotion, "smooth_motion", "Smooth the motion of the person", "M"},
     ActionInfo{Action::kShowMotion, "show_motion", "Show the motion, or each picture by itself",
-               "Shift+M"},
+               "Shift+K"},
     ActionInfo{Action::kPlay, "play", "Play or pause", "K"},
     ActionInfo{Action::kZoomIn, "zoom_in", "Zoom in", "+ ="},
     ActionInfo{Action::kZoomOut, "zoom_out", "Zoom out", "-"},

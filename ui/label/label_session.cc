@@ -244,8 +244,9 @@ std::optional<double> LabelSession::Residual_px(std::string_view landmark) const
 
 std::optional<double> LabelSession::ResidualInSigmas(std::string_view landmark) const {
   const auto residual_px = Residual_px(landmark);
-  const auto point = std::ranges::find(observation_.points, landmark, &ObservedPoint::name);
-  if (!residual_px || point == observation_.points.end()) return std::nullopt;
+  const auto& points = observation().points;
+  const auto point = std::ranges::find(points, landmark, &ObservedPoint::name);
+  if (!residual_px || point == points.end()) return std::nullopt;
   return *residual_px / point->sigma;
 }
 

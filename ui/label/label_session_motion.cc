@@ -28,6 +28,13 @@ bool LabelSession::DoMotion(Action action) {
     case Action::kShowMotion:
       shows_motion = !shows_motion;
       return true;
+    case Action::kNextPose:  // of the frame by itself, which is not to be seen yet
+      if (!ShowsMotion()) return false;
+      shows_motion = false;
+      return true;
+    case Action::kStop:
+      motion_solver_.Cancel();
+      return false;  // nor is anything else to go on
     default:
       return false;
   }

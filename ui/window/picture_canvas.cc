@@ -258,7 +258,7 @@ void PictureCanvas::PaintBone(QPainter* painter, int joint, const Eigen::Matrix2
 
 // From the labels to where the pose has them.
 void PictureCanvas::PaintResiduals(QPainter* painter) const {
-  const LiftedPose* pose = session_->pose();
+  const LiftedPose* pose = session_->ShownPose();
   for (const ObservedPoint& point : session_->observation().points) {
     if (point.kind != ObservedPoint::Kind::k2D) continue;
     const Eigen::Vector3d x_m = SumOfJoints(point.parts, pose->joints_in_cam_m);

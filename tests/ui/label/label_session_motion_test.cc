@@ -56,8 +56,14 @@ TEST_F(LabelSessionMotionTest, IsShownInAllFramesAlsoWhereNobodyHasLabels) {
     EXPECT_EQ(session_.Residual_px("left_knee").has_value(), !is_filled) << f;
     EXPECT_NE(session_.Status().find(is_filled ? "filled" : "motion"), std::string::npos);
   }
-  session_.Do(Action::kShowMotion);
   session_.GoToFrame(0);
+  session_.WaitUntilSolved();
+  session_.Do(Action::kNextPose);  // the frame by itself, before its other poses
+  EXPECT_FALSE(session_.ShowsMotion());
+  EXPECT_EQ(session_.pose_index(), 0U);
+  session_.Do(Action::kShowMotion);
+  EXPECT_TRUE(session_.ShowsMotion());
+  session_.Do(Action::kShowMotion);
   session_.WaitUntilSolved();
   EXPECT_FALSE(session_.ShowsMotion());
   EXPECT_EQ(session_.ShownPose(), session_.pose());

@@ -99,7 +99,7 @@ TEST_F(MotionDockTest, BothViewsShowTheMotionWhileThatIsOn) {
   auto* const pose = Child<PoseCanvas>("pose");
   auto* const picture = Child<QWidget>("picture");
   const QImage motion = Look(pose), overlay = Look(picture);
-  QTest::keyClick(window_.get(), Qt::Key_M, Qt::ShiftModifier);
+  QTest::keyClick(window_.get(), Qt::Key_K, Qt::ShiftModifier);
   EXPECT_FALSE(Child<QCheckBox>("shows_motion")->isChecked());
   EXPECT_NE(Look(pose), motion);
   EXPECT_NE(Look(picture), overlay);
@@ -128,6 +128,10 @@ TEST_F(MotionDockTest, TheButtonCancelsWhatRuns) {
   QTest::mouseClick(button, Qt::LeftButton);
   EXPECT_EQ(button->text(), "Cancel");
   QTest::mouseClick(button, Qt::LeftButton);
+  EXPECT_EQ(button->text(), "Smooth motion");
+  QTest::mouseClick(button, Qt::LeftButton);
+  EXPECT_EQ(button->text(), "Cancel");
+  QTest::keyClick(window_.get(), Qt::Key_Escape);
   EXPECT_EQ(button->text(), "Smooth motion");
   EXPECT_EQ(session().motion(), nullptr);
 }
