@@ -20,13 +20,13 @@ QString TextOf(std::string_view text) {
 
 }  // namespace
 
-// Hidden at first where there is nothing to make a motion of.
+// Hidden until somebody asks for a motion: before, there is more to see in the picture.
 void MainWindow::AddMotion() {
   motion_ = new MotionDock(&session_, keys_, this);
   addDockWidget(Qt::BottomDockWidgetArea, motion_);
   splitDockWidget(findChild<QDockWidget*>("frames_dock"), motion_, Qt::Vertical);
   docks_.push_back(motion_);
-  motion_->setVisible(WhyFramesAlone(session_.labels()).empty());
+  motion_->hide();
   connect(motion_, &MotionDock::Asked, this, [this] { Do(Action::kSmoothMotion); });
   connect(motion_, &MotionDock::Changed, this, &MainWindow::Refresh);
   connect(motion_, &MotionDock::Chosen, frames_, &QSlider::setValue);

@@ -47,6 +47,8 @@ class MotionDockTest : public ::testing::Test {
     window_->show();
     ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
     plot_ = window_->findChild<AnglePlotWidget*>("angle_plot");
+    EXPECT_FALSE(plot_->isVisible());
+    window_->findChild<MotionDock*>()->show();
     ASSERT_TRUE(plot_->isVisible());
   }
   LabelSession& session() { return window_->session(); }
@@ -89,6 +91,15 @@ TEST_F(MotionDockTest, AKeySmoothsAndThePlotLeadsToFrames) {
   const QImage two = Look(plot_);
   angles->item(0)->setCheckState(Qt::Checked);
   EXPECT_NE(Look(plot_), two);
+}
+
+TEST_F(MotionDockTest, ComesWhenSomebodyAsksForAMotion) {
+  Open(12);
+  window_->findChild<MotionDock*>()->hide();
+  QTest::keyClick(window_.get(), Qt::Key_M);
+  EXPECT_TRUE(plot_->isVisible());
+  QTest::keyClick(window_.get(), Qt::Key_Escape);
+  EXPECT_FALSE(session().motion_solver().IsBusy());
 }
 
 TEST_F(MotionDockTest, BothViewsShowTheMotionWhileThatIsOn) {
