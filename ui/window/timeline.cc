@@ -55,7 +55,8 @@ void Timeline::PaintMotion(QPainter* painter, double step) const {
   const PersonMotion* const motion = session_->motion();
   if (!motion || !motion->HasPoses()) return;
   const double faint = session_->IsMotionCurrent() ? 1.0 : 0.5;
-  for (size_t f = 0; f < motion->is_filled.size(); ++f) {
+  const auto a_pixel = static_cast<size_t>(std::max(1.0, std::floor(1.0 / step)));
+  for (size_t f = 0; f < motion->is_filled.size(); f += a_pixel) {
     const double sigma_deg = motion->Sigma_deg(f);
     if (!std::isfinite(sigma_deg)) continue;
     const double doubt = std::clamp((sigma_deg - kSure_deg) / (kUnsure_deg - kSure_deg), 0.0, 1.0);
