@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <exception>
 #include <iterator>
 
 #include "lift/choose_alternatives.h"
@@ -21,6 +22,7 @@ namespace poselift {
 namespace {
 
 constexpr double kScaleWindow_s = 1.5;
+constexpr double kShareOfFrames = 0.9;  // of the time, to lift each frame by itself
 
 // A part of the sequence in which every frame could be lifted by itself, or
 // lies between two that could.
@@ -198,10 +200,12 @@ LiftedSequence SequenceLifter::LiftAtSkeletonSize(const std::vector<Observation>
     run.span = span;
     const auto so_far = [&](double share) {
       if (progress)
-        progress((span.first + share * span.NumFrames()) / static_cast<double>(frames.size()));
+        progress(kShareOfFrames * (span.first + share * span.NumFrames()) /
+                 static_cast<double>(frames.size()));
     };
     if (!LiftEach(&run, so_far)) continue;
     FindLocalPoses(&run);
+    so_far(1.0);  // where who waits may stop it
     GatherEvidence(&run);
     runs.push_back(std::move(run));
   }
@@ -209,6 +213,9 @@ LiftedSequence SequenceLifter::LiftAtSkeletonSize(const std::vector<Observation>
     lifted.body = FindProportions(&runs);
   lifted.skeleton = WithProportions(standard, lifted.body.log_ratios);
   for (Run& run : runs) {
+    if (progress)
+      progress(kShareOfFrames +
+               (1.0 - kShareOfFrames) * run.span.first / static_cast<double>(frames.size()));
     std::vector<LiftedPose> together = Refine(run, lifted.skeleton, lifted.body.log_ratios);
     for (size_t i = 0; i < together.size(); ++i) {
       const size_t t = i + static_cast<size_t>(run.span.first);
@@ -219,6 +226,7 @@ LiftedSequence SequenceLifter::LiftAtSkeletonSize(const std::vector<Observation>
       poses.insert(poses.begin(), std::move(together[i]));
     }
   }
+  if (progress) progress(1.0);
   return lifted;
 }
 
@@ -228,12 +236,20 @@ bool SequenceLifter::LiftEach(Run* run, const ProgressFn& progress) const {
   const size_t num_frames = run->smooth.size();
   run->alone.resize(num_frames);
   std::atomic<size_t> done = 0;
+  std::atomic<bool> is_stopped = false;
+  std::exception_ptr reason;  // may not leave the parallel loop
 #pragma omp parallel for schedule(dynamic)
   for (size_t t = 0; t < num_frames; ++t) {
+    if (is_stopped) continue;
     run->alone[t] = lifter_.LiftPhoto(run->smooth[t]);
     const size_t now = ++done;
-    progress(static_cast<double>(now) / static_cast<double>(num_frames));
+    try {
+      progress(static_cast<double>(now) / static_cast<double>(num_frames));
+    } catch (...) {
+      if (!is_stopped.exchange(true)) reason = std::current_exception();
+    }
   }
+  if (reason) std::rethrow_exception(reason);
   if (!BorrowMissing(&run->alone)) return false;
   const std::vector<int> chosen = ChooseAlternatives(run->alone, run->frame_time_s);
   std::vector<double> scales_px_per_m;

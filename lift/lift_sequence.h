@@ -62,7 +62,7 @@ class SequenceLifter {
   // a frame count where it is lifted alone and in the motion; they do not reach others by
   // themselves. The first frame that says how tall the person is says so for all.
   // The longest frame time at which a motion can be told is kLongestFrameTime_s;
-  // beyond it throws InputError.
+  // beyond it throws InputError. What progress throws ends the work and comes out.
   LiftedSequence LiftSequence(const std::vector<Observation>& frames, double frame_time_s,
                               const ProgressFn& progress = {}) const;
 

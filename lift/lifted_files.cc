@@ -2,12 +2,26 @@
 // Copyright (c) 2026 the poselift authors
 #include "lift/lifted_files.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <ranges>
+
+#include "src/input_error.h"
 #include "src/io/angles_csv.h"
 #include "src/io/motion_file.h"
 #include "src/io/poses_json.h"
+#include "src/io/text_scanner.h"
 
 namespace poselift {
 namespace {
+
+constexpr std::array kFormats = {LiftedFormat{".bvh", "Motion (BVH)"},
+                                 LiftedFormat{".amc", "Motion with its skeleton (AMC, ASF)"},
+                                 LiftedFormat{".csv", "Joint angles (CSV)"},
+                                 LiftedFormat{".json", "Poses (JSON)"}};
 
 bool AnyUsable(const LiftedLabels& lifted) {
   for (const auto& people : lifted.results)
@@ -26,6 +40,22 @@ double FrameTime_s(const Labels& labels, double fps) {
   return (*frames.back().time_s - *frames.front().time_s) / static_cast<double>(frames.size() - 1);
 }
 
+std::string WhyFramesAlone(const Labels& labels) {
+  const auto& frames = labels.frames;
+  if (frames.size() <= 2)
+    return fmt::format("found {} frames, wanted at least 3 to make a motion of", frames.size());
+  const auto untimed = std::ranges::find_if(
+      frames, [](const FrameLabels& frame) { return !frame.time_s.has_value(); });
+  if (untimed != frames.end())
+    return fmt::format("found no time of frame {}, wanted the times of all frames, as of a video",
+                       untimed - frames.begin() + 1);
+  constexpr double kAnyFps = 30.0;  // they have times
+  const double frame_time_s = FrameTime_s(labels, kAnyFps);
+  if (frame_time_s <= SequenceLifter::kLongestFrameTime_s) return "";
+  return fmt::format("found {:.2g} s between frames, wanted at most {} to make a motion of",
+                     frame_time_s, SequenceLifter::kLongestFrameTime_s);
+}
+
 void WriteLifted(const LiftedLabels& lifted, const Labels& labels, const Skeleton& skeleton,
                  bool is_motion, double fps, const std::filesystem::path& folder) {
   WritePosesJson(lifted.poses, folder / "poses.json");
@@ -37,6 +67,24 @@ void WriteLifted(const LiftedLabels& lifted, const Labels& labels, const Skeleto
   if (motion.frames.empty()) return;
   WriteMotion(motion, folder / "poses.bvh");
   WriteMotion(motion, folder / "poses.amc");
+}
+
+std::span<const LiftedFormat> LiftedFormats() { return kFormats; }
+
+void WriteLiftedMotion(const LiftedLabels& lifted, const Skeleton& skeleton,
+                       const std::filesystem::path& path) {
+  const std::string ending = path.extension().string();
+  if (std::ranges::none_of(kFormats, [&](const LiftedFormat& format) {
+        return EqualsIgnoringCase(ending, format.ending);
+      }))
+    throw InputError(
+        path,
+        fmt::format("found the ending {}, wanted one of {}", Quoted(ending),
+                    fmt::join(kFormats | std::views::transform(&LiftedFormat::ending), ", ")));
+  if (!AnyUsable(lifted)) throw InputError(path, "found no pose to write, wanted a lifted motion");
+  if (EqualsIgnoringCase(ending, ".json")) return WritePosesJson(lifted.poses, path);
+  if (EqualsIgnoringCase(ending, ".csv")) return WriteAnglesCsv(lifted.poses, path);
+  WriteMotion(ToMotionOverTime(lifted, skeleton), path);
 }
 
 }  // namespace poselift

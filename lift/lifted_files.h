@@ -3,6 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
 
 #include "lift/lift_labels.h"
 #include "src/labels.h"
@@ -13,10 +16,27 @@ namespace poselift {
 // The time between frames: from their times where they have them, else by fps.
 double FrameTime_s(const Labels& labels, double fps);
 
+// Why each frame is lifted by itself, in words; empty when the frames are those of one motion: more
+// than two, all with times, no longer apart than SequenceLifter::kLongestFrameTime_s. Times that do
+// not grow are found by the lifter.
+std::string WhyFramesAlone(const Labels& labels);
+
 // What `lift` leaves in a folder, but pictures: poses.json, angles.csv, of one motion
 // angles_sigma.csv, and of the first person poses.bvh, poses.amc and poses.asf, unless nobody was
 // lifted. Throws InputError when a file cannot be written.
 void WriteLifted(const LiftedLabels& lifted, const Labels& labels, const Skeleton& skeleton,
                  bool is_motion, double fps, const std::filesystem::path& folder);
+
+// What one motion can be written as, by the ending of the file.
+struct LiftedFormat {
+  std::string_view ending;  // ".bvh"
+  std::string_view name;    // for a list to choose from
+};
+std::span<const LiftedFormat> LiftedFormats();
+
+// One file of the first person of frames lifted over time. Throws InputError for another ending,
+// when nobody was lifted and when the file cannot be written.
+void WriteLiftedMotion(const LiftedLabels& lifted, const Skeleton& skeleton,
+                       const std::filesystem::path& path);
 
 }  // namespace poselift

@@ -11,15 +11,13 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "src/draw/plot_axis.h"
 #include "src/draw/xml_text.h"
 #include "src/input_error.h"
 
 namespace poselift {
 namespace {
 
-// Okabe and Ito without their yellow, which is faint on paper, grey in its place.
-constexpr std::array<const char*, 8> kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                                "#e69f00", "#56b4e9", "#000000", "#7f7f7f"};
 constexpr std::array<const char*, 4> kDashes = {"", "7 4", "2 3", "9 3 2 3"};
 constexpr double kLeft_px = 64, kRight_px = 20, kTop_px = 44, kAxis_px = 46, kStrip_px = 18,
                  kLegendRow_px = 22, kFont_px = 13, kSample_px = 30;
@@ -36,36 +34,6 @@ double TextWidth_px(std::string_view text) {
     return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // bytes that start one
   });
   return 0.56 * kFont_px * static_cast<double>(characters);
-}
-
-struct Range {
-  double low = HUGE_VAL;
-  double high = -HUGE_VAL;
-
-  void Add(double value) {
-    if (!std::isfinite(value)) return;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  bool IsEmpty() const { return low > high; }
-  Range Widened(double part, double least) const {
-    const double by = std::max(part * (high - low), 0.5 * (least - (high - low)));
-    return {low - by, high + by};
-  }
-};
-
-// 1, 2 or 5 times a power of ten, of which about `count` fit into the range.
-double TickStep(const Range& range, double count) {
-  const double rough = (range.high - range.low) / count;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= rough) return factor * power;
-  return 10.0 * power;
-}
-
-std::string TickText(double value, double step) {
-  const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
-  return fmt::format("{:.{}f}", std::abs(value) < 0.5 * step ? 0.0 : value, decimals);
 }
 
 class Drawing {
@@ -119,9 +87,7 @@ class Drawing {
     return kTop_px +
            plot_.height_px * (angles_deg_.high - angle_deg) / (angles_deg_.high - angles_deg_.low);
   }
-  static const char* ColorOf(const AngleCurve& curve) {
-    return kColors[static_cast<size_t>(curve.color_index) % kColors.size()];
-  }
+  static const char* ColorOf(const AngleCurve& curve) { return CurveColor(curve.color_index); }
   static std::string DashOf(const AngleCurve& curve) {
     const char* dashes = kDashes[static_cast<size_t>(curve.dash_index) % kDashes.size()];
     return *dashes ? fmt::format(" stroke-dasharray=\"{}\"", dashes) : "";
@@ -261,7 +227,7 @@ class Drawing {
   static constexpr const char* kStripColor = "#606060";
 
   const AnglePlot& plot_;
-  Range times_s_, angles_deg_;
+  PlotRange times_s_, angles_deg_;
   double strips_top_px_ = 0.0;
   double axis_px_ = 0.0;
 };

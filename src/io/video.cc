@@ -117,6 +117,52 @@ bool VideoFile::Advance() {
   return grabbed_;
 }
 
+// To a frame that is not the first.
+bool VideoFile::AdvanceOn() {
+  const double before_s = std::max(time_s_, 0.0);
+  if (!Advance()) return false;
+  // OpenCV 4.6 has 0 of the frames that the decoder still held when the file was at its end, as
+  // it does where there are B-frames (opencv/opencv#22141): they go on as evenly as those before.
+  if (time_s_ == 0.0) time_s_ = before_s + step_s_;
+  return true;
+}
+
+// To some frame at or before that time.
+bool VideoFile::SeekBefore(double time_s) {
+  const double rate_hz = capture_.get(cv::CAP_PROP_FPS);
+  for (const double back_s : {0.0, 2.0, 10.0, 60.0}) {
+    const double from_s = std::max(0.0, time_s - back_s);
+    {
+      const QuietStderr quiet;
+      try {
+        // OpenCV goes to a key frame 16 frames before at least, and reads on to about this one.
+        if (!capture_.set(cv::CAP_PROP_POS_FRAMES, std::floor(from_s * rate_hz))) return false;
+      } catch (const cv::Exception&) {
+        return false;
+      }
+    }
+    if (!Advance()) return false;
+    // 0 is the first frame, or one at the end that OpenCV has no time of.
+    if (time_s_ > 0.0 && time_s_ <= time_s) return true;
+    if (from_s == 0.0) return false;
+  }
+  return false;
+}
+
+bool VideoFile::GoTo(int index, double time_s) {
+  constexpr double kSame_s = 1e-6;
+  if (!SeekBefore(time_s + kSame_s)) return false;
+  // Two frames are needed to know the step at which those without a time go on.
+  for (bool has_step = false; time_s_ < time_s - kSame_s; has_step = true) {
+    const double before_s = time_s_;
+    if (!(has_step ? AdvanceOn() : Advance()) || time_s_ <= before_s) return false;
+    step_s_ = time_s_ - before_s;
+  }
+  if (std::abs(time_s_ - time_s) > kSame_s) return false;
+  index_ = index;
+  return true;
+}
+
 void VideoFile::CheckEnd() const {
   if (2.0 * index_ < stated_frames_)
     throw InputError(path_, fmt::format("ends after {} of {} frames: it is damaged; copy it again",
@@ -127,10 +173,7 @@ std::optional<double> VideoFile::Skip_s() {
   if (!grabbed_) return std::nullopt;
   double time_s = time_s_;
   ++index_;
-  const bool is_last = !Advance();
-  // OpenCV 4.6 has 0 of the frames that the decoder still held when the file was at its end, as
-  // it does where there are B-frames (opencv/opencv#22141): they go on as evenly as those before.
-  if (!is_last && time_s_ == 0.0) time_s_ = std::max(time_s, 0.0) + step_s_;
+  const bool is_last = !AdvanceOn();
   // Of a first frame at 0 OpenCV gives the decoding time, which may lie anywhere.
   if (index_ == 1 && (is_last || time_s < 0.0 || time_s >= time_s_)) time_s = 0.0;
   if (is_last) {

@@ -30,12 +30,18 @@ class VideoFile : public FrameSource {
   cv::Size size_px() const override { return size_px_; }
   std::optional<VideoFrame> Next() override;
   std::optional<double> Skip_s() override;
+  // So that Next gives the frame of this number, of which Skip_s, read from the beginning, once
+  // said time_s. It is decoded from a frame that stands by itself, well before it. False when the
+  // file does not lead there for certain; what Next gives then is not known: open it anew.
+  bool GoTo(int index, double time_s);
   // By the container, often an estimate; 0 when it states none.
   int64_t stated_frames() const;
 
  private:
   bool Grab();
   bool Advance();
+  bool AdvanceOn();
+  bool SeekBefore(double time_s);
   void CheckEnd() const;
 
   std::filesystem::path path_;

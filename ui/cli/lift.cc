@@ -7,7 +7,6 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -67,13 +66,9 @@ LiftInputs Gather(const Options& options) {
                      progress.Callback());
 }
 
-// Whether the frames are those of a motion: all have times, close to each other.
 bool AreOneMotion(const Labels& labels, const Options& options) {
-  const auto& frames = labels.frames;
-  return !options.frames_alone && options.method == MethodNames().front() && frames.size() > 2 &&
-         std::all_of(frames.begin(), frames.end(),
-                     [](const FrameLabels& frame) { return frame.time_s.has_value(); }) &&
-         FrameTime_s(labels, options.fps) <= SequenceLifter::kLongestFrameTime_s;
+  return !options.frames_alone && options.method == MethodNames().front() &&
+         WhyFramesAlone(labels).empty();
 }
 
 void SetTimes(double fps, Labels* labels) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "src/input_error.h"
 #include "src/io/image.h"
@@ -17,26 +18,76 @@ cv::Mat FramePictures::Read(const FrameLabels& frame) {
   return frame.frame && IsVideoFile(path) ? ReadFrame(path, *frame.frame) : ReadImage(path);
 }
 
-cv::Mat FramePictures::ReadFrame(const std::filesystem::path& path, int index) {
-  if (path != path_) {
-    kept_.clear();
-    video_.reset();
-    path_ = path;
+void FramePictures::WaitForTimes() {
+  if (times_) times_->WaitUntilRead();
+}
+
+void FramePictures::Open(const std::filesystem::path& path) {
+  video_.emplace(path);
+  next_ = 0;
+  is_sought_ = false;
+  if (path == path_ && times_) return;
+  kept_.clear();
+  times_ = std::make_unique<FrameTimes>(path);
+  path_ = path;
+}
+
+// So that the video gives the frame, or one before it.
+void FramePictures::GoTo(int index) {
+  if (index >= next_ && index < next_ + kNear) return;
+  if (index >= kNear) {
+    if (const auto time_s = times_->Of_s(index)) {
+      is_sought_ = true;
+      next_ = index;
+      bool is_there = false;
+      try {
+        is_there = video_->GoTo(index, *time_s);
+      } catch (const InputError&) {  // told when it is met again on the long way
+      }
+      num_seeks_ += is_there ? 1 : 0;
+      if (is_there) return;
+      Open(path_);
+    }
   }
+  if (index < next_) Open(path_);
+}
+
+void FramePictures::Keep(int index, const cv::Mat& bgr) {
+  kept_.emplace_back(index, bgr);
+  while (kept_.size() > 1 && kept_.size() * bgr.total() * 3 > kKept_bytes) kept_.pop_front();
+}
+
+// Keeps the frames from the first to the last; false when the video ends before.
+bool FramePictures::Decode(int first, int last) {
+  for (; next_ < first && video_->Skip_s(); ++next_) {
+  }
+  while (next_ >= first && next_ <= last) {
+    const auto frame = video_->Next();
+    if (!frame) return false;
+    Keep(next_++, frame->bgr);
+  }
+  return next_ > last;
+}
+
+cv::Mat FramePictures::ReadFrame(const std::filesystem::path& path, int index) {
+  if (path != path_ || !video_) Open(path);
+  const int before = std::exchange(last_, index);
   const auto kept = std::ranges::find(kept_, index, &std::pair<int, cv::Mat>::first);
   if (kept != kept_.end()) return kept->second;
-  if (!video_ || index < next_) {
-    video_.emplace(path);
-    next_ = 0;
+  // Who goes back a little goes on so: those before are kept on the way.
+  const auto room =
+      static_cast<int>(kKept_bytes / 3 / static_cast<size_t>(video_->size_px().area()));
+  const int back = std::clamp(room - 1, 0, kBack);
+  const bool is_going_back = index < before && index > before - kBack;
+  const int first = is_going_back ? std::max(0, index - back) : index;
+  GoTo(first);
+  if (Decode(first, index)) return kept_.back().second;
+  // OpenCV counts frames by their times after a jump, and may take an earlier one for the last.
+  if (is_sought_) {
+    Open(path_);
+    if (Decode(index, index)) return kept_.back().second;
   }
-  for (; next_ < index && video_->Skip_s(); ++next_) {
-  }
-  const auto frame = next_ == index ? video_->Next() : std::nullopt;
-  if (!frame) throw InputError(path, fmt::format("has {} frames, wanted frame {}", next_, index));
-  ++next_;
-  kept_.emplace_back(index, frame->bgr);
-  while (kept_.size() > 1 && kept_.size() * frame->bgr.total() * 3 > kKept_bytes) kept_.pop_front();
-  return frame->bgr;
+  throw InputError(path, fmt::format("has {} frames, wanted frame {}", next_, index));
 }
 
 }  // namespace poselift

@@ -31,13 +31,15 @@ LabelSession::LabelSession(LabelProject* project, const PhotoLifter& lifter,
       lifter_(lifter),
       layout_(FindLayout(project->labels().layout)),
       wake_(std::move(answered)),
-      solver_(lifter, [this](uint64_t number, const LiftResult& result) {
-        {
-          const std::scoped_lock lock(mutex_);
-          waiting_ = {number, result};
-        }
-        if (wake_) wake_();
-      }) {
+      solver_(lifter,
+              [this](uint64_t number, const LiftResult& result) {
+                {
+                  const std::scoped_lock lock(mutex_);
+                  waiting_ = {number, result};
+                }
+                if (wake_) wake_();
+              }),
+      motion_solver_(lifter, wake_) {
   if (!layout_) throw InputError("found labels without a layout, wanted one, such as body15");
   handles_ = PoseHandles(*layout_);
   GoToFrame(0);
@@ -205,14 +207,19 @@ void LabelSession::Ask() {
     observation = Observe(frame.people[person_index_], *layout_);
   const std::scoped_lock lock(mutex_);
   asked_observation_ = observation;
+  if (is_playing_ && ShowsMotion()) {
+    result_ = {};
+    asked_ = answered_ = 0;  // what is still being solved is of a frame gone by
+    return;
+  }
   asked_ = solver_.Ask(std::move(observation));
 }
 
 bool LabelSession::TakeAnswer() {
-  const bool is_followed = TakeFollowed();
+  const bool is_followed = TakeFollowed(), has_motion = TakeMotion();
   const std::scoped_lock lock(mutex_);
   // An older one is of labels that are no more.
-  if (!waiting_ || waiting_->first != asked_) return is_followed;
+  if (!waiting_ || waiting_->first != asked_) return is_followed || has_motion;
   result_ = std::move(waiting_->second);
   waiting_.reset();
   observation_ = asked_observation_;
@@ -231,19 +238,22 @@ const LiftedPose* LabelSession::pose() const {
 }
 
 std::optional<double> LabelSession::Residual_px(std::string_view landmark) const {
-  const LiftedPose* lifted = pose();
+  const LiftedPose* lifted = ShownPose();
   if (!lifted) return std::nullopt;
-  for (size_t i = 0; i < observation_.points.size(); ++i)
-    if (observation_.points[i].name == landmark &&
-        observation_.points[i].kind == ObservedPoint::Kind::k2D)
-      return lifted->point_errors[static_cast<Eigen::Index>(i)];
+  const auto& points = observation().points;
+  for (Eigen::Index i = 0; i < std::min(std::ssize(points), lifted->point_errors.size()); ++i) {
+    const ObservedPoint& point = points[static_cast<size_t>(i)];
+    if (point.name == landmark && point.kind == ObservedPoint::Kind::k2D)
+      return lifted->point_errors[i];
+  }
   return std::nullopt;
 }
 
 std::optional<double> LabelSession::ResidualInSigmas(std::string_view landmark) const {
   const auto residual_px = Residual_px(landmark);
-  const auto point = std::ranges::find(observation_.points, landmark, &ObservedPoint::name);
-  if (!residual_px || point == observation_.points.end()) return std::nullopt;
+  const auto& points = observation().points;
+  const auto point = std::ranges::find(points, landmark, &ObservedPoint::name);
+  if (!residual_px || point == points.end()) return std::nullopt;
   return *residual_px / point->sigma;
 }
 
@@ -255,8 +265,10 @@ std::filesystem::path LabelSession::PicturePath() const {
 
 void LabelSession::Export(const std::filesystem::path& folder) const {
   std::filesystem::create_directories(folder);
-  WriteLifted(LiftLabels(lifter_, labels(), std::nullopt, {}), labels(),
-              lifter_.dictionary().skeleton, false, kFps, folder);
+  const bool is_motion = WhyFramesAlone(labels()).empty();
+  const LiftedLabels lifted = is_motion ? LiftAsMotion(lifter_, labels(), {})
+                                        : LiftLabels(lifter_, labels(), std::nullopt, {});
+  WriteLifted(lifted, labels(), lifter_.dictionary().skeleton, is_motion, kFps, folder);
 }
 
 std::string LabelSession::Title() const {
@@ -279,14 +291,19 @@ std::string LabelSession::Status() const {
   if (hovered_ && pose()) return HandleStatus(*hovered_);
   std::string status =
       fmt::format("click: {}", InWords(layout_->landmarks[static_cast<size_t>(landmark_)].name));
-  if (const LiftedPose* lifted = pose())
+  if (ShowsMotion())
+    status += fmt::format("   motion{}, {}", IsMotionCurrent() ? "" : " (out of date)",
+                          motion_->is_filled[frame_index_]
+                              ? "filled for want of labels"
+                              : fmt::format("{:.1f} px", MotionPose()->reprojection_rms_px));
+  else if (const LiftedPose* lifted = pose())
     status += fmt::format("   pose {} of {}", pose_index_ + 1, result_.poses.size()) +
               (lifted->reprojection_rms_px < 0.0
                    ? std::string()
                    : fmt::format(", {:.1f} px", lifted->reprojection_rms_px));
   else
     status += "   no pose yet: " + result_.message;
-  if (pose() && !pose()->unmet_hints.empty())
+  if (!ShowsMotion() && pose() && !pose()->unmet_hints.empty())
     status += fmt::format("   {} not met: they contradict each other, or the picture",
                           pose()->unmet_hints.size() == 1
                               ? "a hint is"

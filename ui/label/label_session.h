@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "lift/lift_photo.h"
 #include "src/labels.h"
@@ -22,6 +23,8 @@
 #include "ui/label/label_edits.h"
 #include "ui/label/label_flow.h"
 #include "ui/label/label_project.h"
+#include "ui/label/motion_solver.h"
+#include "ui/label/person_motion.h"
 #include "ui/label/picture_hit.h"
 #include "ui/label/pose_drag.h"
 #include "ui/label/pose_handles.h"
@@ -97,18 +100,36 @@ class LabelSession {
   // Of the person at hand, the chosen pose; null while there is none.
   const LiftedPose* pose() const;
   const LiftResult& result() const { return result_; }
-  const Observation& observation() const { return observation_; }
+  const Observation& observation() const;  // that the shown pose explains
   size_t pose_index() const { return pose_index_; }
   bool is_solving() const { return asked_ != answered_; }
   void WaitUntilSolved();
 
-  // How far the pose is from a landmark's label; nothing without one of them.
+  // The frames of the person at hand as one motion, asked for by Action::kSmoothMotion and there
+  // when TakeAnswer says so. Null before the first; its message says why when there is none.
+  const PersonMotion* motion() const { return motion_ ? &*motion_ : nullptr; }
+  bool IsMotionCurrent() const;  // the person's labels are those that it was made of
+  // Of the frame at hand; null where the motion has none, or was made of other labels of it.
+  const LiftedPose* MotionPose() const;
+  bool shows_motion = true;  // instead of frames by themselves
+  bool ShowsMotion() const;  // here and now
+  const LiftedPose* ShownPose() const;
+  MotionSolver& motion_solver() { return motion_solver_; }
+  void WaitUntilSmoothed();
+  // To a frame that is not stayed at: not lifted by itself where the motion is shown.
+  void PlayTo(size_t frame);
+  // One file of the motion, by its ending (LiftedFormats). Throws InputError also when there is no
+  // motion, or none of these labels.
+  void ExportMotion(const std::filesystem::path& path) const;
+
+  // How far the shown pose is from a landmark's label; nothing without one of them.
   std::optional<double> Residual_px(std::string_view landmark) const;
   std::optional<double> ResidualInSigmas(std::string_view landmark) const;
   std::filesystem::path PicturePath() const;  // of the frame at hand; empty without one
   // Points to pictures that moved there; returns how many. Throws InputError as LabelProject.
   size_t Relink(const std::filesystem::path& folder) { return project_->Relink(folder); }
-  // Lifts all frames and leaves in a folder what `lift` does, but pictures. Throws InputError.
+  // Lifts all frames, as a motion where they are one (WhyFramesAlone), and leaves in a folder what
+  // `lift` does, but pictures. Throws InputError.
   void Export(const std::filesystem::path& folder) const;
 
   std::string Title() const;   // of the window: file, picture, whether all is saved
@@ -135,6 +156,10 @@ class LabelSession {
   bool HasLabelsInForce() const { return observation_.Count(ObservedPoint::Kind::k2D) > 0; }
   std::optional<size_t> HandleAtHand() const;
   std::string HandleStatus(size_t handle) const;
+  bool DoMotion(Action action);
+  int PersonOfMotion() const;
+  bool TakeMotion();
+  const std::vector<std::uint64_t>& MarksOfMotion() const;
   void FlipLimb(const std::string& joint);
   void KeepPose();
   void Give(std::vector<LabelHint> hints);
@@ -163,6 +188,11 @@ class LabelSession {
   std::vector<PoseHandle> handles_;
   std::optional<size_t> hovered_;
 
+  std::optional<PersonMotion> motion_;
+  mutable std::vector<std::uint64_t> marks_;  // LabelMarks of the labels' state and person
+  mutable std::pair<std::uint64_t, int> marks_of_;
+  bool is_playing_ = false;
+
   std::mutex mutex_;
   std::optional<std::pair<uint64_t, LiftResult>> waiting_;  // guarded by mutex_
   std::function<void()> wake_;                              // the window, from another thread
@@ -174,6 +204,7 @@ class LabelSession {
   // The last members: their threads use the others.
   std::unique_ptr<BackgroundJob<GuessedLabels>> follow_;
   PoseSolver solver_;
+  MotionSolver motion_solver_;
 };
 
 }  // namespace poselift

@@ -30,8 +30,8 @@ bool LabelSession::Do(Action action) {
   if (labels().frames.empty()) return false;
   notice_.clear();
   nearer_.reset();
-  return DoGo(action) || DoOnLandmark(action) || DoOnPerson(action) || DoHint(action) ||
-         DoFlow(action) || DoPose(action) || DoOnProject(action);
+  return DoMotion(action) || DoGo(action) || DoOnLandmark(action) || DoOnPerson(action) ||
+         DoHint(action) || DoFlow(action) || DoPose(action) || DoOnProject(action);
 }
 
 bool LabelSession::DoGo(Action action) {

@@ -26,7 +26,9 @@
 
 #include "ui/window/camera_dialog.h"
 #include "ui/window/image_from.h"
+#include "ui/window/motion_dock.h"
 #include "ui/window/picture_canvas.h"
+#include "ui/window/player.h"
 #include "ui/window/pose_canvas.h"
 #include "ui/window/timeline.h"
 #include "ui/window/welcome.h"
@@ -64,6 +66,7 @@ MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const K
   AddFrames();
   AddHints();
   AddLook();
+  AddMotion();
   status_ = new QLabel(this);
   status_->setObjectName("status");
   cursor_ = new QLabel(this);
@@ -118,6 +121,8 @@ void MainWindow::AddMenus() {
   file->addAction(tr("&Find moved pictures..."), this, &MainWindow::FindPictures)
       ->setObjectName("find_pictures");
   file->addAction(tr("&Export..."), this, &MainWindow::AskExport)->setObjectName("export");
+  file->addAction(tr("Export &motion..."), this, &MainWindow::AskExportMotion)
+      ->setObjectName("export_motion");
   file->addAction(tr("Save s&creenshot..."), this, &MainWindow::SaveScreenshot)
       ->setObjectName("screenshot");
   file->addSeparator();
@@ -138,10 +143,11 @@ void MainWindow::AddMenus() {
         kStop}},
       {tr("&Go"),
        {kNextJoint, kPreviousJoint, kNextFrame, kPreviousFrame, kForward10, kBack10, kForward100,
-        kBack100, kFirstFrame, kLastFrame, kNextUnlabelled, kNextLabelled, kPreviousLabelled}},
+        kBack100, kFirstFrame, kLastFrame, kNextUnlabelled, kNextLabelled, kPreviousLabelled,
+        kPlay}},
       {tr("&Pose"),
        {kNextPose, kKeepPose, kFlipLimb, kTowardsCamera, kAwayFromCamera, kNearer, kOnFloor,
-        kForgetHints, kPinJoint, kAddKeyFrame, kRemoveFrame}},
+        kForgetHints, kPinJoint, kAddKeyFrame, kRemoveFrame, kSmoothMotion, kShowMotion}},
       {tr("&View"),
        {kZoomIn, kZoomOut, kFit, kFullSize, kZoomToBox, kMirrorView, kToggleLoupe, kToggleLabels,
         kToggleEdges, kToggleSkeleton}},
@@ -190,6 +196,12 @@ void MainWindow::Do(Action action) {
       break;
     case Action::kHelp:
       return ShowKeys();
+    case Action::kPlay:
+      return player_->Toggle();
+    case Action::kSmoothMotion:
+      motion_->show();
+      session_.Do(action);
+      break;
     default:
       Try([&] { session_.Do(action); });
   }
@@ -314,6 +326,7 @@ void MainWindow::Refresh() {
   picture_->update();
   pose_->update();
   timeline_->update();
+  motion_->Refresh();
 }
 
 void MainWindow::ShowPicture() {

@@ -19,7 +19,9 @@ class QSlider;
 
 namespace poselift {
 
+class MotionDock;
 class PictureCanvas;
+class Player;
 class PoseCanvas;
 class Timeline;
 
@@ -35,6 +37,7 @@ class MainWindow : public QMainWindow {
   LabelSession& session() { return session_; }
   // All of the results of `lift` in a folder; says what went wrong, if anything did.
   void ExportTo(const QString& folder);
+  void ExportMotionTo(const QString& file);    // as the file's ending says
   void FindPicturesIn(const QString& folder);  // that are no more where the labels say
 
  public slots:
@@ -49,6 +52,7 @@ class MainWindow : public QMainWindow {
   void AddFrames();
   void AddHints();
   void AddLook();
+  void AddMotion();
   QAction* Add(class QMenu* menu, Action action);
   void Do(Action action);
   bool Try(const std::function<void()>& act);
@@ -59,6 +63,7 @@ class MainWindow : public QMainWindow {
   void WatchCamera();
   void NewPose();
   void AskExport();
+  void AskExportMotion();
   void SaveScreenshot();
   void ShowPicture();
   void ShowJoints();
@@ -75,6 +80,8 @@ class MainWindow : public QMainWindow {
   QListWidget *joints_ = nullptr, *hints_ = nullptr;
   QSlider* frames_ = nullptr;
   Timeline* timeline_ = nullptr;
+  MotionDock* motion_ = nullptr;
+  Player* player_ = nullptr;
   std::vector<QDockWidget*> docks_;  // that may be hidden
   QLabel* status_ = nullptr;
   QLabel* cursor_ = nullptr;

@@ -220,7 +220,7 @@ void PictureCanvas::PaintLabels(QPainter* painter, const PersonLabels& person,
 
 // Where the pose has the joints.
 void PictureCanvas::PaintPose(QPainter* painter) const {
-  const LiftedPose* pose = session_->pose();
+  const LiftedPose* pose = session_->ShownPose();
   if (!pose) return;
   const Eigen::Matrix2Xd joints_px = session_->PictureCamera().Project(pose->joints_in_cam_m);
   painter->setOpacity(0.65);
@@ -245,7 +245,7 @@ void PictureCanvas::PaintBone(QPainter* painter, int joint, const Eigen::Matrix2
 
 // From the labels to where the pose has them.
 void PictureCanvas::PaintResiduals(QPainter* painter) const {
-  const LiftedPose* pose = session_->pose();
+  const LiftedPose* pose = session_->ShownPose();
   for (const ObservedPoint& point : session_->observation().points) {
     if (point.kind != ObservedPoint::Kind::k2D) continue;
     const Eigen::Vector3d x_m = SumOfJoints(point.parts, pose->joints_in_cam_m);

@@ -39,9 +39,10 @@ PoseCanvas::PoseCanvas(LabelSession* session, QWidget* parent)
 }
 
 PoseViewInput PoseCanvas::Input() const {
-  PoseViewInput input{.joints_in_cam_m = session_->pose()->joints_in_cam_m};
+  PoseViewInput input{.joints_in_cam_m = session_->ShownPose()->joints_in_cam_m};
+  const bool is_alone = drag_ || session_->ShowsMotion();
   for (size_t i = 0; i < session_->result().poses.size(); ++i)
-    if (i != session_->pose_index() && !drag_)
+    if (!is_alone && i != session_->pose_index())
       input.alternatives_in_cam_m.push_back(session_->result().poses[i].joints_in_cam_m);
   return input;
 }
@@ -74,13 +75,13 @@ QPointF PoseCanvas::ToWidget(const Eigen::Vector2d& x_px) const {
 }
 
 std::optional<QPointF> PoseCanvas::HandleAt(size_t handle) const {
-  if (!session_->pose()) return std::nullopt;
+  if (!HasHandles()) return std::nullopt;
   const Eigen::Vector3d x_m = session_->handles()[handle].In(session_->pose()->joints_in_cam_m);
   return ToWidget(PoseProjection(Stage(), orbit_, Side_px()).Flat(x_m));
 }
 
 std::optional<size_t> PoseCanvas::Hit(const QPointF& x_in_widget) const {
-  if (!session_->pose()) return std::nullopt;
+  if (!HasHandles()) return std::nullopt;
   return HitHandle(session_->handles(), session_->pose()->joints_in_cam_m,
                    PoseProjection(Stage(), orbit_, Side_px()), ToPanel(x_in_widget),
                    kReach * devicePixelRatioF());
@@ -89,7 +90,7 @@ std::optional<size_t> PoseCanvas::Hit(const QPointF& x_in_widget) const {
 void PoseCanvas::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
   painter.fillRect(rect(), ColorFrom(palette::kPaper));
-  if (!session_->pose()) {
+  if (!session_->ShownPose()) {
     painter.setPen(Qt::black);
     painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
                      QString::fromStdString(session_->result().message));
@@ -101,7 +102,9 @@ void PoseCanvas::paintEvent(QPaintEvent* /*event*/) {
                      QImage::Format_BGR888);
   const double side = Side_px() / devicePixelRatioF();
   painter.drawImage(QRectF((width() - side) / 2.0, (height() - side) / 2.0, side, side), image);
-  PaintHandles(&painter);
+  painter.setPen(Qt::black);
+  painter.drawText(rect().adjusted(8, 6, -8, -6), Qt::AlignTop | Qt::AlignLeft, Kind());
+  if (HasHandles()) PaintHandles(&painter);
 }
 
 // A ring around what a press takes, a diamond on what is pinned and a line to where that is wanted.
@@ -128,6 +131,16 @@ void PoseCanvas::PaintHandles(QPainter* painter) const {
     painter->drawText(at + QPointF(2.2 * kMark, -kMark),
                       QString::fromStdString(session_->handles()[h].name).replace('_', ' '));
   }
+}
+
+// Which pose it is, once there are two kinds.
+QString PoseCanvas::Kind() const {
+  const PersonMotion* const motion = session_->motion();
+  if (!motion || !motion->HasPoses()) return {};
+  if (!session_->ShowsMotion()) return tr("this picture alone");
+  QString kind = tr("smoothed motion");
+  if (motion->is_filled[session_->frame_index()]) kind += tr(", filled for want of labels");
+  return session_->IsMotionCurrent() ? kind : kind + tr(", out of date");
 }
 
 void PoseCanvas::Turn(double yaw_rad, double pitch_rad) {

@@ -13,10 +13,10 @@ class QPainter;
 
 namespace poselift {
 
-// The pose at hand in space, on its floor, with the other poses that fit as ghosts. A joint that is
-// pressed is dragged, in the plane of the view through it; with Shift its limb follows alone, the
-// right button pins it. Dragging elsewhere turns the pose, the wheel zooms, a double click looks
-// from where the camera is.
+// The pose at hand in space, on its floor, with the other poses that fit as ghosts; or that of the
+// motion, where it is shown. A joint that is pressed is dragged, in the plane of the view through
+// it; with Shift its limb follows alone, the right button pins it. Dragging elsewhere turns the
+// pose, the wheel zooms, a double click looks from where the camera is.
 class PoseCanvas : public QWidget {
   Q_OBJECT
 
@@ -50,6 +50,8 @@ class PoseCanvas : public QWidget {
     Scene stage;  // the view stands still
     bool is_moved = false;
   };
+  // Of a frame by itself; a motion is only looked at.
+  bool HasHandles() const { return session_->pose() && !session_->ShowsMotion(); }
   PoseViewInput Input() const;
   Scene Stage() const;
   int Side_px() const;
@@ -58,6 +60,7 @@ class PoseCanvas : public QWidget {
   std::optional<size_t> Hit(const QPointF& x_in_widget) const;
   void MoveTo(const QPointF& x_in_widget);
   void PaintHandles(QPainter* painter) const;
+  QString Kind() const;
   void Turn(double yaw_rad, double pitch_rad);
 
   LabelSession* session_;

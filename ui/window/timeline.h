@@ -26,6 +26,7 @@ class Timeline : public QWidget {
   void mouseMoveEvent(QMouseEvent* event) override;
 
  private:
+  void PaintMotion(QPainter* painter, double step) const;
   void Choose(double x);
 
   LabelSession* session_;

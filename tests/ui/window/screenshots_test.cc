@@ -16,6 +16,7 @@
 #include <mutex>
 
 #include "src/io/video.h"
+#include "tests/support/walk_labels.h"
 #include "tests/ui/window/sample_window.h"
 #include "ui/label/new_pose.h"
 #include "ui/live/live_inputs.h"
@@ -164,6 +165,24 @@ TEST_F(Screenshots, OfAPoseFromNothing) {
   }
   QTest::mouseMove(pose, at("right_elbow"));
   Take("label-posing", &window);
+}
+
+// With its video where the real data is.
+TEST_F(Screenshots, OfAMotion) {
+  LabelProject walk(testing::FreshLabelsFile(folder_, testing::ShortWalk(80, 30)));
+  if (const auto data = testing::DataDir()) walk.Relink(*data / "photos");
+  MainWindow window(&walk, lifter_, KeyMap());
+  window.resize(1400, 900);
+  window.show();
+  window.findChild<QAction*>("smooth_motion")->trigger();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().motion() != nullptr; }, 60000));
+  auto* const angles = window.findChild<QListWidget*>("angles");
+  for (const QString name : {"left_hip.flexion", "left_elbow.flexion"})
+    angles->findItems(name, Qt::MatchExactly).front()->setCheckState(Qt::Checked);
+  window.session().GoToFrame(52);
+  window.session().WaitUntilSolved();
+  window.Refresh();
+  Take("label-motion", &window);
 }
 
 }  // namespace

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+//
+// The frames of the person at hand as one motion.
+#include <algorithm>
+
+#include "lift/lifted_files.h"
+#include "src/input_error.h"
+#include "ui/label/label_session.h"
+
+namespace poselift {
+
+// In a frame without anybody it is the person of the motion before, or the first there is.
+int LabelSession::PersonOfMotion() const {
+  const auto& frames = labels().frames;
+  if (HasPerson() || frames.empty()) return Ref().id;
+  if (motion_) return motion_->person_id;
+  const auto somebody =
+      std::ranges::find_if(frames, [](const FrameLabels& frame) { return !frame.people.empty(); });
+  return somebody == frames.end() ? 0 : somebody->people.front().id;
+}
+
+bool LabelSession::DoMotion(Action action) {
+  switch (action) {
+    case Action::kSmoothMotion:
+      motion_solver_.Ask(labels(), PersonOfMotion());
+      return true;
+    case Action::kShowMotion:
+      shows_motion = !shows_motion;
+      return true;
+    case Action::kNextPose:  // of the frame by itself, which is not to be seen yet
+      if (!ShowsMotion()) return false;
+      shows_motion = false;
+      return true;
+    case Action::kStop:
+      motion_solver_.Cancel();
+      return false;  // nor is anything else to go on
+    default:
+      return false;
+  }
+}
+
+bool LabelSession::TakeMotion() {
+  std::optional<PersonMotion> motion = motion_solver_.Take();
+  if (!motion) return false;
+  // One that could not be made does not take away the one before.
+  if (!motion->HasPoses() && motion_ && motion_->HasPoses()) {
+    notice_ = "no motion: " + motion->message;
+    return true;
+  }
+  motion_ = std::move(motion);
+  return true;
+}
+
+// What the motion would be made of now; only when labels have changed since it was asked last.
+const std::vector<std::uint64_t>& LabelSession::MarksOfMotion() const {
+  const std::pair now(project_->history().state(), motion_->person_id);
+  if (marks_.empty() || marks_of_ != now) {
+    marks_ = LabelMarks(labels(), motion_->person_id);
+    marks_of_ = now;
+  }
+  return marks_;
+}
+
+bool LabelSession::IsMotionCurrent() const {
+  return motion_ && MarksOfMotion() == motion_->label_marks;
+}
+
+const LiftedPose* LabelSession::MotionPose() const {
+  if (!motion_ || (drag_ && drag_->edit)) return nullptr;
+  if (HasPerson() && Ref().id != motion_->person_id) return nullptr;
+  const auto& marks = MarksOfMotion();
+  if (frame_index_ >= motion_->label_marks.size() ||
+      marks[frame_index_] != motion_->label_marks[frame_index_])
+    return nullptr;
+  return motion_->PoseOf(frame_index_);
+}
+
+bool LabelSession::ShowsMotion() const { return shows_motion && MotionPose(); }
+
+const LiftedPose* LabelSession::ShownPose() const { return ShowsMotion() ? MotionPose() : pose(); }
+
+const Observation& LabelSession::observation() const {
+  return ShowsMotion() ? asked_observation_ : observation_;
+}
+
+void LabelSession::PlayTo(size_t frame) {
+  is_playing_ = true;
+  GoToFrame(frame);
+  is_playing_ = false;
+}
+
+void LabelSession::WaitUntilSmoothed() {
+  motion_solver_.WaitUntilIdle();
+  TakeAnswer();
+}
+
+void LabelSession::ExportMotion(const std::filesystem::path& path) const {
+  if (!motion_ || !motion_->HasPoses())
+    throw InputError("found no motion to export, wanted one: smooth the motion first");
+  if (!IsMotionCurrent())
+    throw InputError(
+        "found labels that have changed since the motion was made, wanted a motion of these: "
+        "smooth "
+        "the motion again");
+  WriteLiftedMotion(motion_->lifted, lifter_.dictionary().skeleton, path);
+}
+
+}  // namespace poselift

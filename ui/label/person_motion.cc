@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the poselift authors
+#include "ui/label/person_motion.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "lift/default_dictionary.h"
+#include "lift/lift_sequence.h"
+#include "lift/lifted_files.h"
+#include "lift/poses_to_motion.h"
+#include "lift/temporal/motion_codebook_file.h"
+#include "src/input_error.h"
+#include "src/joint_angles.h"
+
+namespace poselift {
+namespace {
+
+// FNV-1a.
+class Mark {
+ public:
+  void Add(std::string_view bytes) {
+    for (const char byte : bytes) AddByte(static_cast<unsigned char>(byte));
+    AddByte(0);
+  }
+  void Add(double value) {
+    auto bits = std::bit_cast<std::uint64_t>(value);
+    for (int i = 0; i < 8; ++i, bits >>= 8) AddByte(bits & 0xff);
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  void AddByte(std::uint64_t byte) { value_ = (value_ ^ byte) * 0x100000001b3; }
+
+  std::uint64_t value_ = 0xcbf29ce484222325;
+};
+
+void AddPerson(const PersonLabels& person, Mark* mark) {
+  for (const LandmarkLabel& label : person.landmarks) {
+    mark->Add(label.name);
+    mark->Add(label.x_px.x());
+    mark->Add(label.x_px.y());
+    mark->Add(static_cast<double>(label.state));
+    mark->Add(label.radius_px.value_or(-1.0));
+  }
+  for (const LabelHint& hint : person.hints) {
+    mark->Add(static_cast<double>(hint.kind));
+    mark->Add(hint.joint);
+    mark->Add(hint.other);
+    mark->Add(hint.metres_m.value_or(-1.0));
+    for (const double x_m : hint.x_in_cam_m) mark->Add(x_m);
+  }
+}
+
+// What there is to say of the frames, from what `lift` would write.
+void ReadAngles(PersonMotion* motion) {
+  const auto& frames = motion->lifted.poses.frames;
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  motion->times_s = Eigen::VectorXd::Constant(std::ssize(frames), unknown);
+  motion->angles_deg = motion->angles_sigma_deg =
+      Eigen::MatrixXd::Constant(std::ssize(JointAngles()), std::ssize(frames), unknown);
+  motion->is_filled.assign(frames.size(), false);
+  for (size_t f = 0; f < frames.size(); ++f) {
+    const auto column = static_cast<Eigen::Index>(f);
+    motion->times_s[column] = frames[f].time_s.value_or(unknown);
+    if (frames[f].people.empty()) continue;
+    const PersonPose& person = frames[f].people.front();
+    motion->is_filled[f] = person.status == kFilledStatus;
+    for (size_t a = 0; a < person.angles_deg.size(); ++a)
+      motion->angles_deg(static_cast<Eigen::Index>(a), column) = person.angles_deg[a].second;
+    for (size_t a = 0; a < person.angles_sigma_deg.size(); ++a)
+      motion->angles_sigma_deg(static_cast<Eigen::Index>(a), column) =
+          person.angles_sigma_deg[a].second;
+  }
+}
+
+}  // namespace
+
+const LiftedPose* PersonMotion::PoseOf(size_t frame) const {
+  if (frame >= lifted.results.size() || lifted.results[frame].empty()) return nullptr;
+  const LiftResult& result = lifted.results[frame].front();
+  return result.IsUsable() ? &result.poses.front() : nullptr;
+}
+
+double PersonMotion::Sigma_deg(size_t frame) const {
+  const auto column = static_cast<Eigen::Index>(frame);
+  if (column >= angles_sigma_deg.cols()) return std::numeric_limits<double>::quiet_NaN();
+  return std::sqrt(angles_sigma_deg.col(column).squaredNorm() /
+                   static_cast<double>(angles_sigma_deg.rows()));
+}
+
+Labels OnlyPerson(const Labels& labels, int person_id) {
+  Labels alone = labels;
+  for (FrameLabels& frame : alone.frames)
+    std::erase_if(frame.people, [&](const PersonLabels& other) {
+      return other.id != person_id || other.landmarks.empty();
+    });
+  return WithPeopleBetween(alone);
+}
+
+std::vector<std::uint64_t> LabelMarks(const Labels& labels, int person_id) {
+  std::vector<std::uint64_t> marks;
+  marks.reserve(labels.frames.size());
+  for (const FrameLabels& frame : labels.frames) {
+    Mark mark;
+    mark.Add(frame.time_s.value_or(-1.0));
+    for (const PersonLabels& person : frame.people)
+      if (person.id == person_id) AddPerson(person, &mark);
+    marks.push_back(mark.value());
+  }
+  return marks;
+}
+
+LiftedLabels LiftAsMotion(const PhotoLifter& lifter, const Labels& labels,
+                          const ProgressFn& progress) {
+  if (const std::string why = WhyFramesAlone(labels); !why.empty()) throw InputError(why);
+  const MotionCodebook codebook = WithMirrored(ReadMotionCodebook(DefaultMotionModelPath()));
+  return LiftLabelsOverTime(SequenceLifter(lifter, codebook), lifter.dictionary().skeleton,
+                            WithPeopleBetween(labels), std::nullopt, progress);
+}
+
+PersonMotion LiftPersonAsMotion(const PhotoLifter& lifter, const Labels& labels, int person_id,
+                                const ProgressFn& progress) {
+  PersonMotion motion{.person_id = person_id, .label_marks = LabelMarks(labels, person_id)};
+  try {
+    motion.lifted = LiftAsMotion(lifter, OnlyPerson(labels, person_id), progress);
+  } catch (const InputError& error) {
+    motion.message = error.what();
+    return motion;
+  }
+  motion.message = "found no labels of the person, wanted at least four landmarks in some frames";
+  for (auto& people : motion.lifted.results)
+    for (LiftResult& result : people) {
+      if (!result.IsUsable()) {
+        if (!motion.message.empty()) motion.message = result.message;
+        continue;
+      }
+      motion.message.clear();
+      result.poses.resize(1);  // half an hour has many frames
+    }
+  ReadAngles(&motion);
+  return motion;
+}
+
+}  // namespace poselift
