@@ -2,19 +2,16 @@
 // Copyright (c) 2026 the poselift authors
 #pragma once
 
-#include <QPointF>
 #include <QString>
-#include <QWidget>
 #include <optional>
 
-#include "src/draw/pose_view.h"
 #include "ui/live/live_view.h"
+#include "ui/window/orbit_canvas.h"
 
 namespace poselift {
 
-// The pose of who is tracked, in space. Dragging turns it, the wheel zooms, a double click looks
-// from where the camera is.
-class LivePoseCanvas : public QWidget {
+// The pose of who is tracked, in space.
+class LivePoseCanvas : public OrbitCanvas {
   Q_OBJECT
 
  public:
@@ -27,16 +24,10 @@ class LivePoseCanvas : public QWidget {
 
  protected:
   void paintEvent(QPaintEvent* event) override;
-  void mousePressEvent(QMouseEvent* event) override;
-  void mouseMoveEvent(QMouseEvent* event) override;
-  void mouseDoubleClickEvent(QMouseEvent* event) override;
-  void wheelEvent(QWheelEvent* event) override;
 
  private:
   std::optional<LivePose> pose_;
   QString message_;
-  PoseOrbit orbit_;
-  QPointF dragged_from_;
 };
 
 }  // namespace poselift

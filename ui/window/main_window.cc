@@ -37,6 +37,7 @@ namespace poselift {
 namespace {
 
 constexpr double kZoomStep = 1.25;
+constexpr int kLong_ms = 15000;  // a message stays
 
 QString TextOf(std::string_view text) {
   return QString::fromUtf8(text.data(), static_cast<int>(text.size()));
@@ -88,7 +89,6 @@ MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const K
   resize(1280, 800);
   picture_->setFocus();
   Refresh();
-  constexpr int kLong_ms = 15000;
   QStringList messages;
   for (const std::string& message : project->messages())
     messages << QString::fromStdString(message);
@@ -336,14 +336,22 @@ void MainWindow::ShowPicture() {
   frames_->setValue(static_cast<int>(session_.frame_index()));
   if (shown_frame_ == session_.frame_index()) return;
   shown_frame_ = session_.frame_index();
+  const FrameLabels& frame = session_.labels().frames.at(*shown_frame_);
+  const QImage ground = EmptyPicture({frame.width_px, frame.height_px});
   try {
-    const FrameLabels& frame = session_.labels().frames.at(*shown_frame_);
-    picture_->SetPicture(frame.image.empty() ? EmptyPicture({frame.width_px, frame.height_px})
-                                             : ImageFrom(pictures_.Read(frame)));
+    picture_->SetPicture(frame.image.empty() ? ground : ImageFrom(pictures_.Read(frame)));
   } catch (const std::exception& error) {
-    picture_->SetPicture({});
+    picture_->SetPicture(ground);
     statusBar()->showMessage(error.what() + tr("; File, Find moved pictures says where it is now"));
   }
+}
+
+// What was said before there was a window hides the status line only now.
+void MainWindow::showEvent(QShowEvent* event) {
+  QMainWindow::showEvent(event);
+  const QString message = statusBar()->currentMessage();
+  statusBar()->clearMessage();
+  if (!message.isEmpty()) statusBar()->showMessage(message, kLong_ms);
 }
 
 // Where saving fails nothing is lost but by will: the steps are in the journal, or said not to be.

@@ -2,40 +2,29 @@
 // Copyright (c) 2026 the poselift authors
 #include "ui/window/pose_canvas.h"
 
-#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
-#include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
 
 #include "src/draw/style.h"
+#include "ui/window/strokes.h"
 
 namespace poselift {
 namespace {
 
-constexpr double kTurn_rad = 0.009;  // a pixel of the mouse
-constexpr double kStep_rad = 0.15;   // a key
-constexpr int kSmallest = 160, kLargest = 2000;
 constexpr double kReach = 13.0;  // of the mouse, in the widget
 constexpr double kMark = 6.0;    // radius of a pin
-
-QColor ColorFrom(const cv::Scalar& bgr) {
-  return {static_cast<int>(bgr[2]), static_cast<int>(bgr[1]), static_cast<int>(bgr[0])};
-}
 
 }  // namespace
 
 PoseCanvas::PoseCanvas(LabelSession* session, QWidget* parent)
-    : QWidget(parent), session_(session) {
+    : OrbitCanvas(parent), session_(session) {
   setObjectName("pose");
-  setAccessibleName(tr("3D pose"));
   setToolTip(
-      tr("Drag a joint, with Shift its limb alone; the right button pins it (K). Drag elsewhere to "
+      tr("Drag a joint, with Shift its limb alone; the right button pins it. Drag elsewhere to "
          "turn, wheel to zoom, double click for the camera's view"));
-  setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
-  setMinimumSize(kSmallest, kSmallest);
 }
 
 PoseViewInput PoseCanvas::Input() const {
@@ -58,50 +47,25 @@ Scene PoseCanvas::Stage() const {
   return stage;
 }
 
-int PoseCanvas::Side_px() const {
-  return std::clamp(static_cast<int>(devicePixelRatioF() * std::min(width(), height())), kSmallest,
-                    kLargest);
-}
-
-Eigen::Vector2d PoseCanvas::ToPanel(const QPointF& x_in_widget) const {
-  const double ratio = devicePixelRatioF(), side = Side_px() / ratio;
-  return ratio * Eigen::Vector2d(x_in_widget.x() - (width() - side) / 2.0,
-                                 x_in_widget.y() - (height() - side) / 2.0);
-}
-
-QPointF PoseCanvas::ToWidget(const Eigen::Vector2d& x_px) const {
-  const double ratio = devicePixelRatioF(), side = Side_px() / ratio;
-  return {x_px.x() / ratio + (width() - side) / 2.0, x_px.y() / ratio + (height() - side) / 2.0};
-}
-
 std::optional<QPointF> PoseCanvas::HandleAt(size_t handle) const {
   if (!HasHandles()) return std::nullopt;
   const Eigen::Vector3d x_m = session_->handles()[handle].In(session_->pose()->joints_in_cam_m);
-  return ToWidget(PoseProjection(Stage(), orbit_, Side_px()).Flat(x_m));
+  return ToWidget(PoseProjection(Stage(), orbit(), Side_px()).Flat(x_m));
 }
 
 std::optional<size_t> PoseCanvas::Hit(const QPointF& x_in_widget) const {
   if (!HasHandles()) return std::nullopt;
   return HitHandle(session_->handles(), session_->pose()->joints_in_cam_m,
-                   PoseProjection(Stage(), orbit_, Side_px()), ToPanel(x_in_widget),
+                   PoseProjection(Stage(), orbit(), Side_px()), ToPanel(x_in_widget),
                    kReach * devicePixelRatioF());
 }
 
 void PoseCanvas::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
-  painter.fillRect(rect(), ColorFrom(palette::kPaper));
-  if (!session_->ShownPose()) {
-    painter.setPen(Qt::black);
-    painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
-                     QString::fromStdString(session_->result().message));
-    return;
-  }
+  if (!session_->ShownPose())
+    return PaintMessage(&painter, QString::fromStdString(session_->result().message));
   const Scene stage = Stage();
-  const cv::Mat panel = DrawPoseFrom(Input(), orbit_, Side_px(), &stage);
-  const QImage image(panel.data, panel.cols, panel.rows, static_cast<int>(panel.step),
-                     QImage::Format_BGR888);
-  const double side = Side_px() / devicePixelRatioF();
-  painter.drawImage(QRectF((width() - side) / 2.0, (height() - side) / 2.0, side, side), image);
+  PaintPanel(&painter, DrawPoseFrom(Input(), orbit(), Side_px(), &stage));
   painter.setPen(Qt::black);
   painter.drawText(rect().adjusted(8, 6, -8, -6), Qt::AlignTop | Qt::AlignLeft, Kind());
   if (HasHandles()) PaintHandles(&painter);
@@ -109,7 +73,7 @@ void PoseCanvas::paintEvent(QPaintEvent* /*event*/) {
 
 // A ring around what a press takes, a diamond on what is pinned and a line to where that is wanted.
 void PoseCanvas::PaintHandles(QPainter* painter) const {
-  const Projection projection = PoseProjection(Stage(), orbit_, Side_px());
+  const Projection projection = PoseProjection(Stage(), orbit(), Side_px());
   painter->setRenderHint(QPainter::Antialiasing);
   const auto hovered = drag_ ? std::optional<size_t>(drag_->handle) : session_->hovered();
   for (size_t h = 0; h < session_->handles().size(); ++h) {
@@ -143,12 +107,6 @@ QString PoseCanvas::Kind() const {
   return session_->IsMotionCurrent() ? kind : kind + tr(", out of date");
 }
 
-void PoseCanvas::Turn(double yaw_rad, double pitch_rad) {
-  orbit_.yaw_rad = std::remainder(orbit_.yaw_rad + yaw_rad, 2.0 * M_PI);
-  orbit_.pitch_rad = std::clamp(orbit_.pitch_rad + pitch_rad, -0.4, M_PI / 2.0 - 0.01);
-  update();
-}
-
 void PoseCanvas::mousePressEvent(QMouseEvent* event) {
   const auto hit = Hit(event->position());
   if (event->button() == Qt::RightButton && hit && !drag_) {
@@ -157,14 +115,12 @@ void PoseCanvas::mousePressEvent(QMouseEvent* event) {
     return;
   }
   if (event->button() != Qt::LeftButton || drag_) return;
-  turned_from_ = event->position();
-  turns_ = !hit;
-  if (!hit) return;
+  if (!hit) return OrbitCanvas::mousePressEvent(event);
   const bool by_angles = event->modifiers() & Qt::ShiftModifier;
   const Scene stage = Stage();
   if (session_->PressHandle(*hit, by_angles ? PoseDrag::Way::kByAngles : PoseDrag::Way::kFree)) {
     const Eigen::Vector3d from_m = session_->handles()[*hit].In(session_->pose()->joints_in_cam_m);
-    const Projection projection = PoseProjection(stage, orbit_, Side_px());
+    const Projection projection = PoseProjection(stage, orbit(), Side_px());
     drag_ = Drag{.handle = *hit,
                  .pressed = event->position(),
                  .grab_px = projection.Flat(from_m) - ToPanel(event->position()),
@@ -179,7 +135,7 @@ void PoseCanvas::MoveTo(const QPointF& x_in_widget) {
   drag_->is_moved |= QLineF(drag_->pressed, x_in_widget).length() > kShake;
   if (!drag_->is_moved) return;
   const Eigen::Vector3d to_m =
-      PoseProjection(drag_->stage, orbit_, Side_px())
+      PoseProjection(drag_->stage, orbit(), Side_px())
           .InCam(ToPanel(x_in_widget) + drag_->grab_px, drag_->from_in_cam_m);
   drag_->by_m = to_m - drag_->from_in_cam_m;
   session_->MoveHandle(to_m);
@@ -196,15 +152,12 @@ void PoseCanvas::mouseMoveEvent(QMouseEvent* event) {
     emit Changed();
     return;
   }
-  if (!turns_) return;
-  const QPointF by = event->position() - turned_from_;
-  turned_from_ = event->position();
-  Turn(-kTurn_rad * by.x(), kTurn_rad * by.y());
+  OrbitCanvas::mouseMoveEvent(event);
 }
 
 void PoseCanvas::mouseReleaseEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return;
-  turns_ = false;
+  OrbitCanvas::mouseReleaseEvent(event);
   if (!drag_) return;
   drag_.reset();
   session_->Release();
@@ -215,31 +168,6 @@ void PoseCanvas::leaveEvent(QEvent* /*event*/) {
   if (!session_->hovered()) return;
   session_->Hover({});
   emit Changed();
-}
-
-void PoseCanvas::mouseDoubleClickEvent(QMouseEvent* /*event*/) {
-  orbit_ = {.yaw_rad = 0.0, .pitch_rad = 0.0};
-  update();
-}
-
-void PoseCanvas::wheelEvent(QWheelEvent* event) {
-  orbit_.zoom = std::clamp(orbit_.zoom * std::pow(2.0, event->angleDelta().y() / 480.0), 0.2, 20.0);
-  update();
-}
-
-void PoseCanvas::keyPressEvent(QKeyEvent* event) {
-  switch (event->key()) {
-    case Qt::Key_Left:
-      return Turn(kStep_rad, 0.0);
-    case Qt::Key_Right:
-      return Turn(-kStep_rad, 0.0);
-    case Qt::Key_Up:
-      return Turn(0.0, kStep_rad);
-    case Qt::Key_Down:
-      return Turn(0.0, -kStep_rad);
-    default:
-      QWidget::keyPressEvent(event);
-  }
 }
 
 }  // namespace poselift

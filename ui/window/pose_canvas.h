@@ -3,11 +3,11 @@
 #pragma once
 
 #include <QPointF>
-#include <QWidget>
 #include <optional>
 
 #include "src/draw/pose_view.h"
 #include "ui/label/label_session.h"
+#include "ui/window/orbit_canvas.h"
 
 class QPainter;
 
@@ -17,13 +17,12 @@ namespace poselift {
 // motion, where it is shown. A joint that is pressed is dragged, in the plane of the view through
 // it; with Shift its limb follows alone, the right button pins it. Dragging elsewhere turns the
 // pose, the wheel zooms, a double click looks from where the camera is.
-class PoseCanvas : public QWidget {
+class PoseCanvas : public OrbitCanvas {
   Q_OBJECT
 
  public:
   explicit PoseCanvas(LabelSession* session, QWidget* parent = nullptr);
 
-  const PoseOrbit& orbit() const { return orbit_; }
   QSize sizeHint() const override { return {460, 460}; }
   // Where a handle of the session's pose is in the widget; nothing without a pose.
   std::optional<QPointF> HandleAt(size_t handle) const;
@@ -36,9 +35,6 @@ class PoseCanvas : public QWidget {
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
-  void mouseDoubleClickEvent(QMouseEvent* event) override;
-  void wheelEvent(QWheelEvent* event) override;
-  void keyPressEvent(QKeyEvent* event) override;
   void leaveEvent(QEvent* event) override;
 
  private:
@@ -54,19 +50,12 @@ class PoseCanvas : public QWidget {
   bool HasHandles() const { return session_->pose() && !session_->ShowsMotion(); }
   PoseViewInput Input() const;
   Scene Stage() const;
-  int Side_px() const;
-  Eigen::Vector2d ToPanel(const QPointF& x_in_widget) const;
-  QPointF ToWidget(const Eigen::Vector2d& x_px) const;
   std::optional<size_t> Hit(const QPointF& x_in_widget) const;
   void MoveTo(const QPointF& x_in_widget);
   void PaintHandles(QPainter* painter) const;
   QString Kind() const;
-  void Turn(double yaw_rad, double pitch_rad);
 
   LabelSession* session_;
-  PoseOrbit orbit_;
-  QPointF turned_from_;
-  bool turns_ = false;
   std::optional<Drag> drag_;
 };
 

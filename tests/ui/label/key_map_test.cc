@@ -30,8 +30,8 @@ TEST(KeyMap, EachActionHasADescriptionAndKeysOfItsOwn) {
 
 TEST(KeyMap, AFileChangesWhatItNames) {
   const KeyMap map = KeyMap::Read(
-      WriteScratch("keys.toml", "swap_sides = 'J'\ncycle_state = ['O', 'W']\nhelp = []\n"));
-  EXPECT_EQ(map.Text(Action::kSwapSides), "J");
+      WriteScratch("keys.toml", "swap_sides = 'R'\ncycle_state = ['O', 'W']\nhelp = []\n"));
+  EXPECT_EQ(map.Text(Action::kSwapSides), "R");
   EXPECT_EQ(map.Text(Action::kCycleState), "O, W");
   EXPECT_EQ(map.Text(Action::kHelp), "");
   EXPECT_EQ(map.Text(Action::kSave), "Ctrl+S");

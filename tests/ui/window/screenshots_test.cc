@@ -115,13 +115,13 @@ TEST_F(Screenshots, OfACameraIsTaken) {
   LiveInputs inputs;
   inputs.view.input = testing::SourcePath("samples/tags/clip.mp4");
   inputs.view.camera = testing::SourcePath("samples/tags/camera.yaml");
-  inputs.tags = testing::SourcePath("samples/tags/tags.toml");
+  inputs.tags = testing::SourcePath("samples/tags/tags.true.toml");
   const auto open = [&] {
     LiveParts parts = OpenLive(inputs, lifter_);
     parts.source = std::make_unique<HeldClip>();
     return parts;
   };
-  LiveWindow live(open, {"clip.mp4", folder_ / "live"}, lifter_, KeyMap());
+  LiveWindow live(open, {"clip.mp4", "live"}, lifter_, KeyMap());
   live.show();
   constexpr int kPatience_ms = 120000;
   ASSERT_TRUE(QTest::qWaitFor([&] { return live.status().num_pictures == HeldClip::kFrames; },
@@ -169,8 +169,12 @@ TEST_F(Screenshots, OfAPoseFromNothing) {
 
 // With its video where the real data is.
 TEST_F(Screenshots, OfAMotion) {
-  LabelProject walk(testing::FreshLabelsFile(folder_, testing::ShortWalk(80, 30)));
-  if (const auto data = testing::DataDir()) walk.Relink(*data / "photos");
+  Labels labels = testing::ShortWalk(80, 30);
+  const auto data = testing::DataDir();
+  if (!data)
+    for (FrameLabels& frame : labels.frames) frame.image.clear();
+  LabelProject walk(testing::FreshLabelsFile(folder_, labels));
+  if (data) walk.Relink(*data / "photos");
   MainWindow window(&walk, lifter_, KeyMap());
   window.resize(1400, 900);
   window.show();
