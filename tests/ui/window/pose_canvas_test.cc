@@ -90,11 +90,11 @@ TEST_F(PoseCanvasTest, AWristOfTheSampleIsDraggedAndUndone) {
 TEST_F(PoseCanvasTest, ThePlaceUnderTheMouseIsSaidAndAPressBesideTurns) {
   OpenNewPose();
   auto* const status = window_->findChild<QWidget*>("status");
-  QTest::mouseMove(Canvas(), At("left_elbow"));
+  testing::HoverOver(Canvas(), At("left_elbow"));
   EXPECT_EQ(window_->session().hovered(), Handle("left_elbow"));
   EXPECT_TRUE(status->property("text").toString().contains("left elbow"));
   const double yaw_rad = Canvas()->orbit().yaw_rad;
-  QTest::mouseMove(Canvas(), {10, 10});
+  testing::HoverOver(Canvas(), {10, 10});
   EXPECT_FALSE(window_->session().hovered());
   QTest::mousePress(Canvas(), Qt::LeftButton, {}, {10, 10});
   QTest::mouseMove(Canvas(), {60, 10});

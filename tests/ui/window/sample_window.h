@@ -7,6 +7,7 @@
 #include <QAction>
 #include <QListWidget>
 #include <QMessageBox>
+#include <QMouseEvent>
 #include <QSlider>
 #include <QStatusBar>
 #include <QTest>
@@ -25,6 +26,14 @@
 namespace poselift::testing {
 
 namespace fs = std::filesystem;
+
+// The mouse over a widget without a button, on screens of any scale: QTest::mouseMove gives no
+// event where the mouse is already, as the system counts.
+inline void HoverOver(QWidget* widget, const QPoint& at) {
+  QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, Qt::NoButton,
+                   Qt::NoModifier);
+  QCoreApplication::sendEvent(widget, &move);
+}
 
 // A window on the sample picture of a kick, without labels, and the labels it is to get.
 class SampleWindow : public ::testing::Test {
