@@ -74,8 +74,9 @@ struct TagSigmas {
   // from the principal point.
   double depth = 0.0;
 };
-// Of a body 3 m away, whose parts lie within half a metre of depth, and a guess 20 % off.
-inline constexpr double kGuessedDepthSigma = 0.03;
+// Of a body 3 m away, whose parts lie within half a metre of depth, and a guess 20 % off; of weak
+// perspective, which sees no depth at all.
+inline constexpr double kGuessedDepthSigma = 0.03, kWeakDepthSigma = 0.1;
 
 // The inverse square root of
 //   corner^2 I + J diag(mount_m^2, mount_rad^2) J^T + depth^2 c c^T,

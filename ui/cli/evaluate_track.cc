@@ -34,7 +34,6 @@ namespace poselift::cli {
 namespace {
 
 constexpr double kFrameTime_s = 1.0 / 30.0;
-constexpr double kWeakDepthSigma = 0.1;
 constexpr double kWeakFov_deg = 1.0;  // from 250 m away
 
 // A trial that is tracked, and the movements its tags are fitted on.

@@ -98,7 +98,9 @@ Camera CameraOf(const TrackingInputs& inputs, cv::Size size_px) {
 }
 
 double DepthSigma(const TrackingInputs& inputs) {
-  return inputs.camera.empty() ? kGuessedDepthSigma : 0.0;
+  constexpr double kWeak_deg = 2.0;
+  if (!inputs.camera.empty()) return 0.0;
+  return inputs.fov_deg < kWeak_deg ? kWeakDepthSigma : kGuessedDepthSigma;
 }
 
 Eigen::Quaterniond CamFromWorld(const TrackingInputs& inputs) {
