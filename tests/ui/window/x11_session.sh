@@ -16,7 +16,8 @@ mkdir -p "$folder"
 cp "$picture" "$folder/picture.jpg"
 cd "$folder"
 
-Xvfb -displayfd 3 -screen 0 1400x900x24 3>display >xvfb.log 2>&1 &
+# -noreset: it would begin anew, and drop who connects, whenever its last client leaves.
+Xvfb -noreset -displayfd 3 -screen 0 1400x900x24 3>display >xvfb.log 2>&1 &
 trap 'jobs -p | xargs -r kill -9 2>/dev/null || true' EXIT
 # await WHAT COMMAND...: within 20 seconds.
 await() {
