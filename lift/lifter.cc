@@ -15,12 +15,23 @@ namespace poselift {
 namespace {
 
 constexpr int kLeastPoints = 4;
-// So many in space, and nothing else, show all of the body from one side only.
 constexpr int kPointsOfAWholeBody = 15;
 // How far off a pose that was mirrored may be: it is where to start.
 constexpr double kMirrorSigma_m = 0.1;
 // px or m: fourth powers of what lies within are far from overflow.
 constexpr double kFarthest = 1e9;
+
+// A pose that somebody made (pins, ObservePose), counted from the pelvis, and nothing in a picture:
+// it looks one way only. What tags measure does not, for they may be taken for each other.
+bool IsWholePose(const Observation& observation) {
+  return observation.Count(ObservedPoint::Kind::k2D) == 0 &&
+         std::ssize(observation.points) >= kPointsOfAWholeBody &&
+         std::any_of(observation.points.begin(), observation.points.end(),
+                     [](const ObservedPoint& point) {
+                       return point.parts.size() == 1 && point.x.isZero(0.0) &&
+                              point.parts.front().joint == joint::kPelvis;
+                     });
+}
 
 void SortByObjective(std::vector<LiftSolution>* solutions) {
   std::stable_sort(
@@ -135,8 +146,7 @@ std::vector<LiftSolution> Lifter::Solve(const Observation& observation) const {
   Alternation alternation(dictionary_, options_, observation, prior_rows_, prior_target_);
   auto starts =
       SearchViews(alternation.op(), alternation.centred_atoms(), options_.rotation, options_.views);
-  if (!alternation.op().Has2D() && alternation.op().Num3D() >= kPointsOfAWholeBody)
-    starts.resize(std::min<size_t>(starts.size(), 1));
+  if (IsWholePose(observation)) starts.resize(std::min<size_t>(starts.size(), 1));
   auto solutions = AtStarts(starts, dictionary_, alternation.op().Has2D());
   const int trial = std::min(options_.trial_alternations, options_.max_alternations);
   RunEach(alternation, trial, &solutions, static_cast<int>(solutions.size()));
