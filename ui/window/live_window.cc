@@ -125,9 +125,8 @@ void LiveWindow::Refresh() {
 }
 
 void LiveWindow::ShowState() {
-  const bool is_running = status_.state == LiveStatus::State::kRunning;
   freeze_->setEnabled(status_.num_pictures > 0);
-  record_->setEnabled(is_running);
+  record_->setEnabled(status_.state != LiveStatus::State::kEnded);  // from the first picture on
   record_->setText(wants_recording_ ? tr("Stop recording") : tr("Record"));
   restart_->setEnabled(status_.state == LiveStatus::State::kEnded);
 }

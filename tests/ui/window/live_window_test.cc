@@ -158,10 +158,11 @@ TEST_F(LiveWindowTest, ABusyCameraIsToldAndTriedAgain) {
 TEST_F(LiveWindowTest, UnpluggedWhileItRecordsLeavesAVideoAndTheLastPicture) {
   device_.num_frames = 4;
   device_.unplugged_at_end = true;
-  device_.Allow(1);
+  device_.Allow(0);
   OpenDevice();
-  ASSERT_TRUE(Wait([this] { return window_->status().num_pictures == 1; }));
-  QTest::keyClick(window_.get(), Qt::Key_R);
+  QTest::keyClick(window_.get(), Qt::Key_R);  // before the first picture
+  device_.Allow(1);
+  ASSERT_TRUE(Wait([this] { return window_->status().num_recorded == 1; })) << Problem();
   device_.Allow(4);
   ASSERT_TRUE(WaitForEnd());
   EXPECT_THAT(Problem(), HasSubstr("unplugged"));
