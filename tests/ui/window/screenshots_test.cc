@@ -155,7 +155,7 @@ TEST_F(Screenshots, OfAPoseFromNothing) {
   solve();
   for (const auto& [name, by] : {std::pair{"left_wrist", QPoint(40, -110)},
                                  {"right_wrist", QPoint(-30, -60)},
-                                 {"left_knee", QPoint(10, -45)}}) {
+                                 {"left_knee", QPoint(-35, -20)}}) {
     const QPoint from = at(name);
     QTest::mousePress(pose, Qt::LeftButton, {}, from);
     QTest::mouseMove(pose, from + by);
