@@ -19,13 +19,6 @@ namespace {
 
 constexpr std::string_view kStateNames[] = {"visible", "occluded", "absent"};
 
-// "left_knee" -> "left knee"
-std::string Spoken(std::string_view landmark) {
-  std::string name(landmark);
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 template <typename People>
 auto Find(People& people, int id) {
   return std::find_if(people.begin(), people.end(), [&](const auto& p) { return p.id == id; });
@@ -63,7 +56,7 @@ LabelEdit WithPerson(const Labels& labels, size_t frame, PersonLabels person, st
 
 LabelEdit WithLandmark(const Labels& labels, PersonRef ref, LandmarkLabel landmark,
                        std::string_view verb) {
-  std::string name = fmt::format("{} {}", verb, Spoken(landmark.name));
+  std::string name = fmt::format("{} {}", verb, InWords(landmark.name));
   PersonLabels person{ref.id, {}};
   if (const PersonLabels* found = FindPerson(labels, ref)) person = *found;
   if (const auto found = FindNamed(person.landmarks, landmark.name);
@@ -139,6 +132,12 @@ Eigen::Affine2d AboutCenter(const PersonLabels& person, const Linear& linear) {
 
 }  // namespace
 
+std::string InWords(std::string_view name) {
+  std::string words(name);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
 const PersonLabels* FindPerson(const Labels& labels, PersonRef ref) {
   const std::vector<PersonLabels>& people = labels.frames.at(ref.frame).people;
   const auto found = Find(people, ref.id);
@@ -197,7 +196,7 @@ LabelEdit RemoveLandmark(const Labels& labels, PersonRef ref, std::string_view l
   LandmarkAt(labels, ref, landmark);
   PersonLabels person = PersonAt(labels, ref);
   person.landmarks.erase(FindNamed(person.landmarks, landmark));
-  return WithPerson(labels, ref.frame, std::move(person), "remove " + Spoken(landmark));
+  return WithPerson(labels, ref.frame, std::move(person), "remove " + InWords(landmark));
 }
 
 LabelEdit AddPerson(const Labels& labels, PersonRef ref) {
@@ -229,13 +228,13 @@ LabelEdit GiveHints(const Labels& labels, PersonRef ref, const std::vector<Label
     person.hints.push_back(hint);
   }
   return WithPerson(labels, ref.frame, std::move(person),
-                    hints.size() == 1 ? "hint: " + Spoken(Describe(hints[0]))
+                    hints.size() == 1 ? "hint: " + InWords(Describe(hints[0]))
                                       : fmt::format("{} hints", hints.size()));
 }
 
 LabelEdit RemoveHint(const Labels& labels, PersonRef ref, size_t index) {
   PersonLabels person = PersonAt(labels, ref);
-  std::string name = "forget: " + Spoken(Describe(person.hints.at(index)));
+  std::string name = "forget: " + InWords(Describe(person.hints.at(index)));
   person.hints.erase(person.hints.begin() + static_cast<std::ptrdiff_t>(index));
   return WithPerson(labels, ref.frame, std::move(person), std::move(name));
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +18,9 @@ namespace poselift {
 // All places are pixels of the picture, integer = pixel centre. A frame that is not there throws
 // std::out_of_range; where a person or a landmark must be there and is not, or the landmark is
 // none of the layout, std::invalid_argument.
+
+// A name as people say it: "left_knee" -> "left knee".
+std::string InWords(std::string_view name);
 
 // A person of a frame. The id is the same in all frames of a video.
 struct PersonRef {

@@ -17,12 +17,6 @@ namespace {
 constexpr double kShake = 0.3;  // of the reach
 constexpr double kFps = 30.0;   // of frames without times
 
-std::string InWords(std::string_view landmark) {
-  std::string words(landmark);
-  std::ranges::replace(words, '_', ' ');
-  return words;
-}
-
 }  // namespace
 
 LabelSession::LabelSession(LabelProject* project, const PhotoLifter& lifter,

@@ -11,14 +11,6 @@
 #include "ui/label/label_session.h"
 
 namespace poselift {
-namespace {
-
-std::string InWords(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
-
-}  // namespace
 
 void LabelSession::Hover(std::optional<size_t> handle) {
   hovered_ = handle;
