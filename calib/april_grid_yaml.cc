@@ -17,7 +17,7 @@ namespace poselift {
 AprilGrid ReadAprilGridYaml(const std::filesystem::path& path) {
   const YamlDocument document(path);
   const YamlValue root = document.root();
-  if (!root.Find("target_type"))
+  if (!root.IsMap() || !root.Find("target_type"))
     throw InputError(path,
                      "found no target_type, wanted a target file of Kalibr, as `poselift tags "
                      "print --set board` writes one");

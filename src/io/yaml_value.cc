@@ -113,6 +113,8 @@ std::vector<std::string> YamlValue::Keys() const {
   return keys;
 }
 
+bool YamlValue::IsMap() const { return node_->IsMap(); }
+
 std::optional<YamlValue> YamlValue::Find(const std::string& key) const {
   if (!node_->IsMap()) throw Unwanted("a map");
   std::optional<YamlValue> found;

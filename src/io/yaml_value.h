@@ -33,6 +33,7 @@ class YamlValue {
   std::vector<YamlValue> Items() const;   // of a list
   std::vector<std::string> Keys() const;  // of a map, in the file's order
 
+  bool IsMap() const;
   // A member of a map. Find: nothing when it is not there or is null.
   std::optional<YamlValue> Find(const std::string& key) const;
   YamlValue At(const std::string& key) const;

@@ -238,6 +238,7 @@ TEST(AprilGridYaml, FlawsAreRefusedWithTheirLine) {
   EXPECT_THAT(Complaint("0.088", "88"), HasSubstr("found the tag size 88 m"));
   EXPECT_THAT(Complaint("0.3 ", "0.3\ntagFamily: tag36h12"), HasSubstr("grid.yaml:6: tagFamily"));
   EXPECT_THAT(Complaint("tagRows: 5", "tagRows: [5"), HasSubstr("found no YAML"));
+  EXPECT_THAT(Complaint(kTarget, "some words\n"), HasSubstr("found no target_type"));
 }
 
 }  // namespace

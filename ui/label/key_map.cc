@@ -94,6 +94,12 @@ constexpr std::array kActions = {
     ActionInfo{Action::kUndo, "undo", "Undo", "Ctrl+Z"},
     ActionInfo{Action::kRedo, "redo", "Redo", "Ctrl+Shift+Z Ctrl+Y"},
     ActionInfo{Action::kHelp, "help", "All keys", "F1 ?"},
+    ActionInfo{Action::kFreeze, "freeze", "Keep this picture and label it", "F", true},
+    ActionInfo{Action::kRecord, "record", "Record into a new folder, or stop", "R", true},
+    ActionInfo{Action::kWatchAgain, "watch_again", "Open the camera, or begin the video, again",
+               "A", true},
+    ActionInfo{Action::kStillFolder, "still_folder", "Where stills, labels and recordings go", "O",
+               true},
 };
 
 std::vector<std::string> KeysOf(const toml::node& node, const std::filesystem::path& path) {
@@ -138,10 +144,10 @@ KeyMap KeyMap::Read(const std::filesystem::path& path) {
                       fmt::join(kActions | std::views::transform(&ActionInfo::name), ", ")));
     map.keys_[static_cast<size_t>(info->action)] = KeysOf(node, path);
   }
-  std::map<std::string, std::string_view> owners;
+  std::map<std::pair<std::string, bool>, std::string_view> owners;
   for (const ActionInfo& info : kActions)
     for (const std::string& key : map.Keys(info.action)) {
-      const auto [owner, is_new] = owners.emplace(key, info.name);
+      const auto [owner, is_new] = owners.emplace(std::pair(key, info.is_live), info.name);
       if (!is_new)
         throw InputError(path, fmt::format("found '{}' for {} and {}, wanted one action for a key",
                                            key, owner->second, info.name));

@@ -11,7 +11,7 @@
 
 namespace poselift {
 
-// What a person can do in the labelling window by a key.
+// What a person can do by a key: in the labelling window, and in the camera's.
 enum class Action {
   kNextFrame,
   kPreviousFrame,
@@ -78,6 +78,10 @@ enum class Action {
   kUndo,
   kRedo,
   kHelp,
+  kFreeze,
+  kRecord,
+  kWatchAgain,
+  kStillFolder,
 };
 
 struct ActionInfo {
@@ -85,6 +89,7 @@ struct ActionInfo {
   std::string_view name;          // in the keys file: "next_frame"
   std::string_view description;   // in the list of keys: "Next picture"
   std::string_view default_keys;  // as QKeySequence reads them, apart by spaces
+  bool is_live = false;           // of the camera's window, whose keys may be used here, too
 };
 
 std::span<const ActionInfo> Actions();

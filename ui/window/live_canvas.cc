@@ -2,8 +2,11 @@
 // Copyright (c) 2026 the poselift authors
 #include "ui/window/live_canvas.h"
 
+#include <QMouseEvent>
 #include <QPainter>
 #include <QPainterPath>
+#include <QWheelEvent>
+#include <cmath>
 #include <utility>
 
 #include "src/draw/style.h"
@@ -34,14 +37,38 @@ void LiveCanvas::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
   painter.fillRect(rect(), palette().color(QPalette::Dark));
   if (image_.isNull()) return;
-  transform_.Fit(Eigen::Vector2d(image_.width(), image_.height()),
-                 Eigen::Vector2d(width(), height()));
+  if (is_fitted_)
+    transform_.Fit(Eigen::Vector2d(image_.width(), image_.height()),
+                   Eigen::Vector2d(width(), height()));
   const QRectF target(ToWidget(Eigen::Vector2d(-0.5, -0.5)),
                       QSizeF(image_.size()) * transform_.scale());
   painter.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
   painter.drawImage(target, image_);
   PaintTags(&painter);
   PaintPose(&painter);
+}
+
+void LiveCanvas::wheelEvent(QWheelEvent* event) {
+  constexpr double kOctave = 480.0;  // four clicks
+  transform_.ZoomAt({event->position().x(), event->position().y()},
+                    std::pow(2.0, event->angleDelta().y() / kOctave));
+  is_fitted_ = false;
+  update();
+}
+
+void LiveCanvas::mousePressEvent(QMouseEvent* event) { panned_from_ = event->position(); }
+
+void LiveCanvas::mouseMoveEvent(QMouseEvent* event) {
+  if (is_fitted_ || !(event->buttons() & Qt::LeftButton)) return;
+  const QPointF by = event->position() - panned_from_;
+  panned_from_ = event->position();
+  transform_.Pan({by.x(), by.y()});
+  update();
+}
+
+void LiveCanvas::mouseDoubleClickEvent(QMouseEvent* /*event*/) {
+  is_fitted_ = true;
+  update();
 }
 
 // The upper edge, as it is printed, is thicker.

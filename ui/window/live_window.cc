@@ -13,6 +13,7 @@
 #include <exception>
 #include <utility>
 
+#include "ui/window/key_list.h"
 #include "ui/window/live_canvas.h"
 #include "ui/window/live_pose.h"
 #include "ui/window/main_window.h"
@@ -53,15 +54,12 @@ LiveWindow::LiveWindow(std::function<LiveParts()> open, const Options& options,
   auto* const bar = addToolBar(tr("Camera"));
   bar->setObjectName("live_bar");
   bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
-  freeze_ =
-      Add("freeze", tr("Freeze"), "F", tr("Keep this picture and label it"), &LiveWindow::Freeze);
-  record_ = Add("record", tr("Record"), "R", tr("Record into a new folder, or stop"),
-                &LiveWindow::ToggleRecording);
-  restart_ = Add("restart", tr("Again"), "A", tr("Open the camera, or begin the video, again"),
-                 &LiveWindow::Restart);
-  folder_ = Add("folder", tr("Folder..."), "O", tr("Where stills, labels and recordings go"),
-                &LiveWindow::AskFolder);
-  bar->addActions({freeze_, record_, restart_, folder_});
+  freeze_ = Add(Action::kFreeze, tr("Freeze"), &LiveWindow::Freeze);
+  record_ = Add(Action::kRecord, tr("Record"), &LiveWindow::ToggleRecording);
+  restart_ = Add(Action::kWatchAgain, tr("Again"), &LiveWindow::Restart);
+  folder_ = Add(Action::kStillFolder, tr("Folder..."), &LiveWindow::AskFolder);
+  bar->addActions(
+      {freeze_, record_, restart_, folder_, Add(Action::kHelp, tr("Keys"), &LiveWindow::ShowKeys)});
   folder_line_ = new QLabel(this);
   folder_line_->setObjectName("live_folder");
   folder_line_->setAccessibleName(tr("Folder of stills and recordings"));
@@ -78,14 +76,17 @@ LiveWindow::LiveWindow(std::function<LiveParts()> open, const Options& options,
 
 LiveWindow::~LiveWindow() = default;
 
-QAction* LiveWindow::Add(const char* name, const QString& text, const QString& key,
-                         const QString& tip, void (LiveWindow::*act)()) {
-  auto* const action = new QAction(text, this);
-  action->setObjectName(name);
-  action->setShortcut(QKeySequence(key));
-  action->setToolTip(QString("%1 (%2)").arg(tip, key));
-  connect(action, &QAction::triggered, this, act);
-  return action;
+QAction* LiveWindow::Add(Action action, const QString& text, void (LiveWindow::*act)()) {
+  auto* const item = new QAction(text, this);
+  SetUp(item, InfoOf(action), keys_);
+  connect(item, &QAction::triggered, this, act);
+  return item;
+}
+
+void LiveWindow::ShowKeys() {
+  ShowKeyList(this, keys_, true,
+              tr("On the picture, wheel: zoom. Left button: pan. Twice: the whole picture. In the "
+                 "3D view, left: turn; twice: as the camera sees it."));
 }
 
 void LiveWindow::Restart() {

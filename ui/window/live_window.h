@@ -51,8 +51,8 @@ class LiveWindow : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
 
  private:
-  QAction* Add(const char* name, const QString& text, const QString& key, const QString& tip,
-               void (LiveWindow::*act)());
+  QAction* Add(Action action, const QString& text, void (LiveWindow::*act)());
+  void ShowKeys();
   void Refresh();
   void ShowProblem(const QString& text);
   void ShowState();

@@ -26,6 +26,7 @@
 
 #include "ui/window/camera_dialog.h"
 #include "ui/window/image_from.h"
+#include "ui/window/key_list.h"
 #include "ui/window/motion_dock.h"
 #include "ui/window/picture_canvas.h"
 #include "ui/window/player.h"
@@ -96,15 +97,9 @@ MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const K
 }
 
 QAction* MainWindow::Add(QMenu* menu, Action action) {
-  const ActionInfo& info = InfoOf(action);
-  auto* const item = menu->addAction(tr(info.description.data()));
-  item->setObjectName(TextOf(info.name));
-  QList<QKeySequence> keys;
-  for (const std::string& key : keys_.Keys(action))
-    keys << QKeySequence(QString::fromStdString(key));
-  item->setShortcuts(keys);
-  item->setToolTip(
-      QString("%1 (%2)").arg(item->text(), QString::fromStdString(keys_.Text(action))));
+  auto* const item = new QAction(menu);
+  SetUp(item, InfoOf(action), keys_);
+  menu->addAction(item);
   connect(item, &QAction::triggered, this, [this, action] { Do(action); });
   actions_[action] = item;
   return item;
@@ -241,20 +236,11 @@ void MainWindow::FindPicturesIn(const QString& folder) {
 }
 
 void MainWindow::ShowKeys() {
-  QString text = "<table>";
-  for (const ActionInfo& info : Actions())
-    text += QString("<tr><td><b>%1</b>&nbsp;&nbsp;</td><td>%2</td></tr>")
-                .arg(QString::fromStdString(keys_.Text(info.action)).toHtmlEscaped(),
-                     tr(info.description.data()));
-  text += "</table>" + tr("<p>Left button: place the joint at hand, or drag any. Right button: "
-                          "visible, occluded, absent. Middle button, or space and left, or right "
-                          "where no joint is: pan. Wheel: zoom. Digits: to the joint of that "
-                          "number. In the 3D view, left: drag a joint, with Shift its limb "
-                          "alone, or turn. Right: pin a joint.");
-  auto* const box = new QMessageBox(QMessageBox::NoIcon, tr("Keys"), text, QMessageBox::Ok, this);
-  box->setObjectName("keys");
-  box->setAttribute(Qt::WA_DeleteOnClose);
-  box->open();
+  ShowKeyList(this, keys_, false,
+              tr("Left button: place the joint at hand, or drag any. Right button: visible, "
+                 "occluded, absent. Middle button, or space and left, or right where no joint is: "
+                 "pan. Wheel: zoom. Digits: to the joint of that number. In the 3D view, left: "
+                 "drag a joint, with Shift its limb alone, or turn. Right: pin a joint."));
 }
 
 // In a window of its own: what is at work here stays.

@@ -18,29 +18,31 @@ using testing::WriteScratch;
 
 TEST(KeyMap, EachActionHasADescriptionAndKeysOfItsOwn) {
   const KeyMap map;
-  std::set<std::string> keys;
+  std::set<std::pair<std::string, bool>> keys;
   for (const ActionInfo& info : Actions()) {
     EXPECT_EQ(&InfoOf(info.action), &info) << info.name;
     EXPECT_FALSE(info.description.empty()) << info.name;
     EXPECT_FALSE(map.Keys(info.action).empty()) << info.name;
     for (const std::string& key : map.Keys(info.action))
-      EXPECT_TRUE(keys.insert(key).second) << key;
+      EXPECT_TRUE(keys.emplace(key, info.is_live).second) << key;
   }
 }
 
 TEST(KeyMap, AFileChangesWhatItNames) {
-  const KeyMap map = KeyMap::Read(
-      WriteScratch("keys.toml", "swap_sides = 'R'\ncycle_state = ['O', 'W']\nhelp = []\n"));
+  const KeyMap map = KeyMap::Read(WriteScratch(
+      "keys.toml", "swap_sides = 'R'\ncycle_state = ['O', 'W']\nhelp = []\nfreeze = 'S'\n"));
   EXPECT_EQ(map.Text(Action::kSwapSides), "R");
   EXPECT_EQ(map.Text(Action::kCycleState), "O, W");
   EXPECT_EQ(map.Text(Action::kHelp), "");
+  EXPECT_EQ(map.Text(Action::kFreeze), "S");
   EXPECT_EQ(map.Text(Action::kSave), "Ctrl+S");
 }
 
 TEST(KeyMap, WhatIsWrongIsRefusedByItsLine) {
   for (const auto& [text, wanted] : {std::pair{"\nfly = 'F'\n", "keys.toml:2: found 'fly'"},
                                      {"save = 3\n", "keys.toml:1: found no text"},
-                                     {"save = 'O'\n", "found 'O' for cycle_state and save"}}) {
+                                     {"save = 'O'\n", "found 'O' for cycle_state and save"},
+                                     {"freeze = 'R'\n", "found 'R' for freeze and record"}}) {
     try {
       KeyMap::Read(WriteScratch("keys.toml", text));
       ADD_FAILURE() << text;

@@ -14,9 +14,11 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QTest>
 #include <QTimer>
+#include <QWheelEvent>
 #include <cerrno>
 
 #include "lift/default_dictionary.h"
@@ -152,7 +154,7 @@ TEST_F(LiveWindowTest, ABusyCameraIsToldAndTriedAgain) {
   QTest::keyClick(window_.get(), Qt::Key_A);
   ASSERT_TRUE(Wait([this] { return Find<LiveCanvas>("live_picture")->view().number > 0; }));
   EXPECT_EQ(Problem(), "");
-  EXPECT_FALSE(Find<QAction>("restart")->isEnabled());
+  EXPECT_FALSE(Find<QAction>("watch_again")->isEnabled());
 }
 
 TEST_F(LiveWindowTest, UnpluggedWhileItRecordsLeavesAVideoAndTheLastPicture) {
@@ -197,6 +199,45 @@ TEST_F(LiveWindowTest, ClosingItEndsTheCameraAndLeavesTheLabels) {
   window_->close();
   EXPECT_EQ(device_.num_open(), 0);
   EXPECT_TRUE(window_->labels()->isVisible());
+}
+
+TEST_F(LiveWindowTest, TheWheelZoomsAtTheCursorTheMousePansAndTwiceIsTheWholePicture) {
+  device_.Allow(1);
+  OpenDevice();
+  auto* const canvas = Find<LiveCanvas>("live_picture");
+  ASSERT_TRUE(Wait([&] { return canvas->view().number > 0; }));
+  canvas->grab();
+  const double whole = canvas->transform().scale();
+  const Eigen::Vector2d before_px = canvas->transform().ToPicture({100.0, 80.0});
+  const QPoint cursor(100, 80);
+  QWheelEvent wheel(cursor, canvas->mapToGlobal(cursor), {}, {0, 480}, Qt::NoButton, {},
+                    Qt::NoScrollPhase, false);
+  QCoreApplication::sendEvent(canvas, &wheel);
+  EXPECT_NEAR(canvas->transform().scale(), 2.0 * whole, 1e-9);
+  EXPECT_TRUE(testing::MatrixNear(canvas->transform().ToPicture({100.0, 80.0}), before_px, 1e-9));
+  QTest::mousePress(canvas, Qt::LeftButton, {}, cursor);
+  QTest::mouseMove(canvas, cursor + QPoint(30, -10));
+  QTest::mouseRelease(canvas, Qt::LeftButton, {}, cursor + QPoint(30, -10));
+  EXPECT_TRUE(testing::MatrixNear(canvas->transform().ToPicture({130.0, 70.0}), before_px, 1e-9));
+  QTest::mouseDClick(canvas, Qt::LeftButton);
+  canvas->grab();
+  EXPECT_EQ(canvas->transform().scale(), whole);
+}
+
+TEST_F(LiveWindowTest, KeysAreThoseOfTheFileAndToldByF1) {
+  device_.Allow(1);
+  const KeyMap keys = KeyMap::Read(testing::WriteScratch("keys.toml", "freeze = 'S'\n"));
+  window_ = std::make_unique<LiveWindow>([this] { return OpenLive(watched_, lifter_, &device_); },
+                                         LiveWindow::Options{"clip", ScratchDir() / "live"},
+                                         lifter_, keys);
+  EXPECT_THAT(Find<QAction>("freeze")->toolTip().toStdString(), HasSubstr("(S)"));
+  window_->show();
+  QTest::keyClick(window_.get(), Qt::Key_F1);
+  auto* const box = Find<QMessageBox>("keys");
+  ASSERT_NE(box, nullptr);
+  EXPECT_THAT(box->text().toStdString(), HasSubstr("<b>S</b>&nbsp;&nbsp;</td><td>Keep this"));
+  EXPECT_EQ(box->text().toStdString().find("Next picture"), std::string::npos);
+  box->close();
 }
 
 TEST(CameraDialog, ListsCamerasByNameWithFiles) {
