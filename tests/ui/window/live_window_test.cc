@@ -232,6 +232,7 @@ TEST_F(LiveWindowTest, KeysAreThoseOfTheFileAndToldByF1) {
                                          lifter_, keys);
   EXPECT_THAT(Find<QAction>("freeze")->toolTip().toStdString(), HasSubstr("(S)"));
   window_->show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
   QTest::keyClick(window_.get(), Qt::Key_F1);
   auto* const box = Find<QMessageBox>("keys");
   ASSERT_NE(box, nullptr);
