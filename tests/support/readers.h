@@ -22,10 +22,11 @@ struct Reader {
 };
 
 // Every format of every reader: motions, labels, poses, cameras, tags, boards, learned models,
-// pictures, videos, the frames of a camera, and text of the command line.
+// pictures, videos, the frames of a camera, the window's journal and keys, and text of the
+// command line.
 //
 // Learned models get a right size and checksum before they are read: without these no damage
-// comes further. The frames of a camera have their format in front of them (readers.cc).
+// comes further. The frames of a camera have their format in front of them (picture_readers.cc).
 const std::vector<Reader>& Readers();
 
 // Writes the bytes as reader.file into the folder and reads them, also as `poselift info` does.
