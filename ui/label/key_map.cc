@@ -29,6 +29,7 @@ constexpr std::array kActions = {
     ActionInfo{Action::kNextUnlabelled, "next_unlabelled", "Next picture without labels", "N"},
     ActionInfo{Action::kNextLabelled, "next_labelled", "Next picture with labels", "]"},
     ActionInfo{Action::kPreviousLabelled, "previous_labelled", "Previous picture with labels", "["},
+    ActionInfo{Action::kSuggested, "suggested", "Picture where labels would tell most", "Shift+N"},
     ActionInfo{Action::kNextJoint, "next_joint", "Next joint", "Down Tab"},
     ActionInfo{Action::kPreviousJoint, "previous_joint", "Previous joint", "Up Shift+Tab"},
     ActionInfo{Action::kCycleState, "cycle_state", "Visible, occluded, absent", "O"},

@@ -24,6 +24,7 @@ enum class Action {
   kNextUnlabelled,
   kNextLabelled,
   kPreviousLabelled,
+  kSuggested,
   kNextJoint,
   kPreviousJoint,
   kCycleState,

@@ -4,6 +4,8 @@
 
 #include <optional>
 
+#include "ui/label/key_map.h"
+
 namespace poselift {
 
 // A key that is held goes faster after a while: how many pictures each of its repeats goes.
@@ -20,6 +22,26 @@ class KeyRepeat {
  private:
   std::optional<double> last_s_;
   int count_ = 0;
+};
+
+// What a key shows or hides stays so when it was struck; held, it was a peek.
+class KeyPeek {
+ public:
+  void Press(Action action, double now_s) {
+    action_ = action;
+    pressed_s_ = now_s;
+  }
+  // What is to be taken back.
+  std::optional<Action> Release(Action action, double now_s) {
+    constexpr double kHeld_s = 0.4;
+    if (action_ != action) return std::nullopt;
+    action_.reset();
+    return now_s - pressed_s_ > kHeld_s ? std::optional(action) : std::nullopt;
+  }
+
+ private:
+  std::optional<Action> action_;
+  double pressed_s_ = 0.0;
 };
 
 // Digits typed one after the other are one number, as far as it is one of 1 to `count`; a 0 that

@@ -7,6 +7,7 @@
 
 #include "ui/label/label_edits.h"
 #include "ui/label/label_session.h"
+#include "ui/label/suggested_frame.h"
 
 namespace poselift {
 namespace {
@@ -64,6 +65,12 @@ bool LabelSession::DoGo(Action action) {
       return true;
     case Action::kPreviousLabelled:
       GoToFrame(NextWhere(true, -1));
+      return true;
+    case Action::kSuggested:
+      if (const auto frame = SuggestedFrame(labels(), PersonOfMotion(), motion()))
+        GoToFrame(*frame);
+      else
+        notice_ = "all pictures have labels";
       return true;
     case Action::kNextJoint:
       GoToLandmark((landmark_ + 1) % count);

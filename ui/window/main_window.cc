@@ -44,6 +44,8 @@ QString TextOf(std::string_view text) {
   return QString::fromUtf8(text.data(), static_cast<int>(text.size()));
 }
 
+double Now_s() { return static_cast<double>(QDateTime::currentMSecsSinceEpoch()) / 1e3; }
+
 }  // namespace
 
 MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const KeyMap& keys)
@@ -77,6 +79,7 @@ MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const K
   statusBar()->addPermanentWidget(cursor_);
   AddMenus();
   connect(picture_, &PictureCanvas::Changed, this, &MainWindow::Refresh);
+  connect(picture_, &PictureCanvas::SpaceStruck, this, [this] { Do(Action::kSuggested); });
   connect(pose_, &PoseCanvas::Changed, this, &MainWindow::Refresh);
   connect(picture_, &PictureCanvas::CursorAt, this, [this](double x_px, double y_px) {
     cursor_->setText(QString("%1, %2").arg(x_px, 0, 'f', 1).arg(y_px, 0, 'f', 1));
@@ -99,6 +102,7 @@ MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const K
 QAction* MainWindow::Add(QMenu* menu, Action action) {
   auto* const item = new QAction(menu);
   SetUp(item, InfoOf(action), keys_);
+  item->setAutoRepeat(!Shown(action));
   menu->addAction(item);
   connect(item, &QAction::triggered, this, [this, action] { Do(action); });
   actions_[action] = item;
@@ -139,7 +143,7 @@ void MainWindow::AddMenus() {
       {tr("&Go"),
        {kNextJoint, kPreviousJoint, kNextFrame, kPreviousFrame, kForward10, kBack10, kForward100,
         kBack100, kFirstFrame, kLastFrame, kNextUnlabelled, kNextLabelled, kPreviousLabelled,
-        kPlay}},
+        kSuggested, kPlay}},
       {tr("&Pose"),
        {kNextPose, kKeepPose, kFlipLimb, kTowardsCamera, kAwayFromCamera, kNearer, kOnFloor,
         kForgetHints, kPinJoint, kAddKeyFrame, kRemoveFrame, kSmoothMotion, kShowMotion}},
@@ -158,7 +162,38 @@ void MainWindow::AddMenus() {
   }
 }
 
+// What a key shows and hides; null for other actions.
+bool* MainWindow::Shown(Action action) const {
+  switch (action) {
+    case Action::kToggleLoupe:
+      return &picture_->shows_loupe;
+    case Action::kToggleLabels:
+      return &picture_->shows_labels;
+    case Action::kToggleEdges:
+      return &picture_->shows_edges;
+    case Action::kToggleSkeleton:
+      return &picture_->shows_skeleton;
+    default:
+      return nullptr;
+  }
+}
+
+void MainWindow::keyReleaseEvent(QKeyEvent* event) {
+  const QKeySequence key(event->keyCombination());
+  for (const auto& [action, item] : actions_) {
+    if (event->isAutoRepeat() || !Shown(action) || !item->shortcuts().contains(key)) continue;
+    if (peek_.Release(action, Now_s())) *Shown(action) = !*Shown(action);
+    Refresh();
+  }
+  QMainWindow::keyReleaseEvent(event);
+}
+
 void MainWindow::Do(Action action) {
+  if (bool* const shown = Shown(action)) {
+    *shown = !*shown;
+    peek_.Press(action, Now_s());
+    return Refresh();
+  }
   switch (action) {
     case Action::kZoomIn:
       return picture_->Zoom(kZoomStep);
@@ -174,20 +209,7 @@ void MainWindow::Do(Action action) {
       return picture_->Mirror();
     case Action::kNextFrame:
     case Action::kPreviousFrame:
-      for (int i = repeat_.Step(QDateTime::currentMSecsSinceEpoch() / 1e3); i > 0; --i)
-        Try([&] { session_.Do(action); });
-      break;
-    case Action::kToggleLoupe:
-      picture_->shows_loupe = !picture_->shows_loupe;
-      break;
-    case Action::kToggleLabels:
-      picture_->shows_labels = !picture_->shows_labels;
-      break;
-    case Action::kToggleEdges:
-      picture_->shows_edges = !picture_->shows_edges;
-      break;
-    case Action::kToggleSkeleton:
-      picture_->shows_skeleton = !picture_->shows_skeleton;
+      for (int i = repeat_.Step(Now_s()); i > 0; --i) Try([&] { session_.Do(action); });
       break;
     case Action::kHelp:
       return ShowKeys();
@@ -239,7 +261,9 @@ void MainWindow::ShowKeys() {
   ShowKeyList(this, keys_, false,
               tr("Left button: place the joint at hand, or drag any. Right button: visible, "
                  "occluded, absent. Middle button, or space and left, or right where no joint is: "
-                 "pan. Wheel: zoom. Digits: to the joint of that number. In the 3D view, left: "
+                 "pan. Space alone: the picture where labels would tell most. Wheel: zoom. Held, "
+                 "the keys that hide something do so until they are let go. Digits: to the joint "
+                 "of that number. In the 3D view, left: "
                  "drag a joint, with Shift its limb alone, or turn. Right: pin a joint."));
 }
 

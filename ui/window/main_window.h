@@ -46,6 +46,7 @@ class MainWindow : public QMainWindow {
  protected:
   void closeEvent(QCloseEvent* event) override;
   void showEvent(QShowEvent* event) override;
+  void keyReleaseEvent(QKeyEvent* event) override;
 
  private:
   void AddMenus();
@@ -56,6 +57,7 @@ class MainWindow : public QMainWindow {
   void AddMotion();
   QAction* Add(class QMenu* menu, Action action);
   void Do(Action action);
+  bool* Shown(Action action) const;
   bool Try(const std::function<void()>& act);
   void Tell(const QString& text);
   void FindPictures();
@@ -74,6 +76,7 @@ class MainWindow : public QMainWindow {
   const PhotoLifter& lifter_;
   KeyMap keys_;
   KeyRepeat repeat_;
+  KeyPeek peek_;
   FramePictures pictures_;
   std::map<Action, QAction*> actions_;
   PictureCanvas* picture_ = nullptr;

@@ -82,6 +82,7 @@ void PictureCanvas::mousePressEvent(QMouseEvent* event) {
   if (event->button() == Qt::MiddleButton ||
       (event->button() == Qt::LeftButton && space_is_down_)) {
     panned_from_ = event->position();
+    space_has_panned_ = true;
   } else if (event->button() == Qt::LeftButton && next_drag_is_box_) {
     box_ = QRectF(event->position(), QSizeF());
   } else if (event->button() == Qt::LeftButton) {
@@ -170,6 +171,7 @@ void PictureCanvas::wheelEvent(QWheelEvent* event) {
 void PictureCanvas::keyPressEvent(QKeyEvent* event) {
   const bool is_digit = event->key() >= Qt::Key_0 && event->key() <= Qt::Key_9;
   if (event->key() == Qt::Key_Space) {
+    if (!event->isAutoRepeat()) space_has_panned_ = false;
     space_is_down_ = true;
   } else if (is_digit && event->modifiers() == Qt::NoModifier) {
     session_->TypeDigit(event->key() - Qt::Key_0, static_cast<double>(event->timestamp()) / 1e3);
@@ -180,10 +182,10 @@ void PictureCanvas::keyPressEvent(QKeyEvent* event) {
 }
 
 void PictureCanvas::keyReleaseEvent(QKeyEvent* event) {
-  if (event->key() == Qt::Key_Space && !event->isAutoRepeat())
-    space_is_down_ = false;
-  else
-    QWidget::keyReleaseEvent(event);
+  if (event->key() != Qt::Key_Space) return QWidget::keyReleaseEvent(event);
+  if (event->isAutoRepeat()) return;
+  space_is_down_ = false;
+  if (!space_has_panned_) emit SpaceStruck();
 }
 
 void PictureCanvas::leaveEvent(QEvent* /*event*/) {

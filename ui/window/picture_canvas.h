@@ -40,7 +40,8 @@ class PictureCanvas : public QWidget {
   QSize sizeHint() const override { return {760, 640}; }
 
  signals:
-  void Changed();  // labels or what is at hand
+  void Changed();      // labels or what is at hand
+  void SpaceStruck();  // with nothing panned
   void CursorAt(double x_px, double y_px);
 
  protected:
@@ -77,7 +78,7 @@ class PictureCanvas : public QWidget {
   ViewTransform view_;
   bool is_fitted_ = true;
   std::optional<QPointF> panned_from_, pressed_at_, cursor_;
-  bool space_is_down_ = false, next_drag_is_box_ = false;
+  bool space_is_down_ = false, space_has_panned_ = false, next_drag_is_box_ = false;
   std::optional<QRectF> box_;  // that is being drawn
 };
 

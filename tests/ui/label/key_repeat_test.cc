@@ -18,6 +18,16 @@ TEST(KeyRepeat, AHeldKeyGoesFasterAndAPauseStartsAnew) {
   EXPECT_EQ(repeat.Step(2.50), 1);
 }
 
+TEST(KeyPeek, OnlyAKeyThatWasHeldIsTakenBack) {
+  KeyPeek peek;
+  peek.Press(Action::kToggleLabels, 1.0);
+  EXPECT_EQ(peek.Release(Action::kToggleLabels, 1.1), std::nullopt);
+  peek.Press(Action::kToggleLabels, 2.0);
+  EXPECT_EQ(peek.Release(Action::kToggleEdges, 3.0), std::nullopt);  // of another key
+  EXPECT_EQ(peek.Release(Action::kToggleLabels, 3.0), Action::kToggleLabels);
+  EXPECT_EQ(peek.Release(Action::kToggleLabels, 4.0), std::nullopt);
+}
+
 TEST(TypedNumber, DigitsInARowAreOneNumberAsFarAsThereIsOne) {
   TypedNumber number;
   EXPECT_EQ(number.Type(1, 15, 0.0), 1);

@@ -109,6 +109,15 @@ TEST_F(MainWindowTest, TheWheelKeepsThePointUnderTheCursor) {
   EXPECT_TRUE(testing::MatrixNear(picture_->view().ToPicture({300.0, 200.0}), before_px, 1e-9));
 }
 
+TEST_F(MainWindowTest, AKeyThatIsHeldHidesTheLabelsUntilItIsLetGo) {
+  constexpr int kHeld_ms = 450;
+  QTest::keyPress(picture_, Qt::Key_L);
+  EXPECT_FALSE(picture_->shows_labels);
+  QTest::qWait(kHeld_ms);
+  QTest::keyRelease(picture_, Qt::Key_L);
+  EXPECT_TRUE(picture_->shows_labels);
+}
+
 TEST_F(MainWindowTest, EveryWidgetThatTakesTheFocusHasANameForReaders) {
   for (const QWidget* widget : window_->findChildren<QWidget*>()) {
     if (!widget->isVisibleTo(window_.get()) || !(widget->focusPolicy() & Qt::TabFocus)) continue;
