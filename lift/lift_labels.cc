@@ -3,7 +3,6 @@
 #include "lift/lift_labels.h"
 
 #include <algorithm>
-#include <atomic>
 #include <map>
 
 #include "lift/body_proportions.h"
@@ -15,6 +14,7 @@
 #include "src/input_error.h"
 #include "src/joint_angles.h"
 #include "src/level_camera.h"
+#include "src/loop_progress.h"
 
 namespace poselift {
 namespace {
@@ -192,9 +192,10 @@ LiftedLabels LiftLabels(const PhotoLifter& lifter, const Labels& labels,
   LiftedLabels lifted;
   lifted.poses.frames.resize(labels.frames.size());
   lifted.results.resize(labels.frames.size());
-  std::atomic<size_t> done = 0;
+  LoopProgress so_far(progress, labels.frames.size());
 #pragma omp parallel for schedule(dynamic)
   for (size_t f = 0; f < labels.frames.size(); ++f) {
+    if (so_far.IsStopped()) continue;
     const FrameLabels& frame = labels.frames[f];
     FramePoses& poses = lifted.poses.frames[f];
     poses.image = frame.image;
@@ -206,9 +207,9 @@ LiftedLabels LiftLabels(const PhotoLifter& lifter, const Labels& labels,
           ToPersonPose(result, observation, person, lifter.dictionary().skeleton));
       lifted.results[f].push_back(std::move(result));
     }
-    const size_t now = ++done;
-    if (progress) progress(static_cast<double>(now) / static_cast<double>(labels.frames.size()));
+    so_far.Advance();
   }
+  so_far.Finish();
   lifted.poses.bodies = BonesOfKnownSize(lifted, lifter.dictionary().skeleton);
   return lifted;
 }
@@ -290,8 +291,9 @@ Motion ToMotion(const LiftedLabels& lifted, const Skeleton& skeleton, double fra
   return motion;
 }
 
-Motion ToMotionOverTime(const LiftedLabels& lifted, const Skeleton& skeleton) {
-  PosesMotion placed = PosesToMotion(lifted.poses, skeleton, {.with_filled = true});
+Motion ToMotionOverTime(const LiftedLabels& lifted, const Skeleton& skeleton,
+                        const ProgressFn& progress) {
+  PosesMotion placed = PosesToMotion(lifted.poses, skeleton, {.with_filled = true}, progress);
   std::vector<SkeletonPose>& frames = placed.motion.frames;
   for (size_t t = 0; t < frames.size(); ++t) {
     if (!IsKnown(frames[t])) {

@@ -37,7 +37,8 @@ LiftedLabels LiftLabelsOverTime(const SequenceLifter& lifter, const Skeleton& sk
 // The first person as one motion, filled frames too: where the picture or the
 // known camera has them (PosesToMotion), floor and all. A frame of which nothing
 // is known keeps the pose before it. Throws InputError when nobody was lifted.
-Motion ToMotionOverTime(const LiftedLabels& lifted, const Skeleton& skeleton);
+Motion ToMotionOverTime(const LiftedLabels& lifted, const Skeleton& skeleton,
+                        const ProgressFn& progress = {});
 
 // Each person is in all frames from their first to their last, without landmarks
 // where there were no labels.

@@ -5,9 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <iterator>
 
 #include "lift/choose_alternatives.h"
@@ -17,6 +15,7 @@
 #include "src/forward_kinematics.h"
 #include "src/input_error.h"
 #include "src/level_camera.h"
+#include "src/loop_progress.h"
 
 namespace poselift {
 namespace {
@@ -235,21 +234,14 @@ LiftedSequence SequenceLifter::LiftAtSkeletonSize(const std::vector<Observation>
 bool SequenceLifter::LiftEach(Run* run, const ProgressFn& progress) const {
   const size_t num_frames = run->smooth.size();
   run->alone.resize(num_frames);
-  std::atomic<size_t> done = 0;
-  std::atomic<bool> is_stopped = false;
-  std::exception_ptr reason;  // may not leave the parallel loop
+  LoopProgress so_far(progress, num_frames);
 #pragma omp parallel for schedule(dynamic)
   for (size_t t = 0; t < num_frames; ++t) {
-    if (is_stopped) continue;
+    if (so_far.IsStopped()) continue;
     run->alone[t] = lifter_.LiftPhoto(run->smooth[t]);
-    const size_t now = ++done;
-    try {
-      progress(static_cast<double>(now) / static_cast<double>(num_frames));
-    } catch (...) {
-      if (!is_stopped.exchange(true)) reason = std::current_exception();
-    }
+    so_far.Advance();
   }
-  if (reason) std::rethrow_exception(reason);
+  so_far.Finish();
   if (!BorrowMissing(&run->alone)) return false;
   const std::vector<int> chosen = ChooseAlternatives(run->alone, run->frame_time_s);
   std::vector<double> scales_px_per_m;

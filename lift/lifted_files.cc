@@ -57,13 +57,16 @@ std::string WhyFramesAlone(const Labels& labels) {
 }
 
 void WriteLifted(const LiftedLabels& lifted, const Labels& labels, const Skeleton& skeleton,
-                 bool is_motion, double fps, const std::filesystem::path& folder) {
+                 bool is_motion, double fps, const std::filesystem::path& folder,
+                 const ProgressFn& progress) {
+  Motion motion;
+  if (AnyUsable(lifted))
+    motion = is_motion ? ToMotionOverTime(lifted, skeleton, progress)
+                       : ToMotion(lifted, skeleton, FrameTime_s(labels, fps));
+  if (progress) progress(1.0);
   WritePosesJson(lifted.poses, folder / "poses.json");
   WriteAnglesCsv(lifted.poses, folder / "angles.csv");
   if (is_motion) WriteAnglesSigmaCsv(lifted.poses, folder / "angles_sigma.csv");
-  if (!AnyUsable(lifted)) return;
-  const Motion motion = is_motion ? ToMotionOverTime(lifted, skeleton)
-                                  : ToMotion(lifted, skeleton, FrameTime_s(labels, fps));
   if (motion.frames.empty()) return;
   WriteMotion(motion, folder / "poses.bvh");
   WriteMotion(motion, folder / "poses.amc");
@@ -72,7 +75,7 @@ void WriteLifted(const LiftedLabels& lifted, const Labels& labels, const Skeleto
 std::span<const LiftedFormat> LiftedFormats() { return kFormats; }
 
 void WriteLiftedMotion(const LiftedLabels& lifted, const Skeleton& skeleton,
-                       const std::filesystem::path& path) {
+                       const std::filesystem::path& path, const ProgressFn& progress) {
   const std::string ending = path.extension().string();
   if (std::ranges::none_of(kFormats, [&](const LiftedFormat& format) {
         return EqualsIgnoringCase(ending, format.ending);
@@ -84,7 +87,7 @@ void WriteLiftedMotion(const LiftedLabels& lifted, const Skeleton& skeleton,
   if (!AnyUsable(lifted)) throw InputError(path, "found no pose to write, wanted a lifted motion");
   if (EqualsIgnoringCase(ending, ".json")) return WritePosesJson(lifted.poses, path);
   if (EqualsIgnoringCase(ending, ".csv")) return WriteAnglesCsv(lifted.poses, path);
-  WriteMotion(ToMotionOverTime(lifted, skeleton), path);
+  WriteMotion(ToMotionOverTime(lifted, skeleton, progress), path);
 }
 
 }  // namespace poselift

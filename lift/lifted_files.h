@@ -9,6 +9,7 @@
 
 #include "lift/lift_labels.h"
 #include "src/labels.h"
+#include "src/progress.h"
 #include "src/skeleton.h"
 
 namespace poselift {
@@ -23,9 +24,11 @@ std::string WhyFramesAlone(const Labels& labels);
 
 // What `lift` leaves in a folder, but pictures: poses.json, angles.csv, of one motion
 // angles_sigma.csv, and of the first person poses.bvh, poses.amc and poses.asf, unless nobody was
-// lifted. Throws InputError when a file cannot be written.
+// lifted. Throws InputError when a file cannot be written; before the first one is, what progress
+// throws.
 void WriteLifted(const LiftedLabels& lifted, const Labels& labels, const Skeleton& skeleton,
-                 bool is_motion, double fps, const std::filesystem::path& folder);
+                 bool is_motion, double fps, const std::filesystem::path& folder,
+                 const ProgressFn& progress = {});
 
 // What one motion can be written as, by the ending of the file.
 struct LiftedFormat {
@@ -35,8 +38,8 @@ struct LiftedFormat {
 std::span<const LiftedFormat> LiftedFormats();
 
 // One file of the first person of frames lifted over time. Throws InputError for another ending,
-// when nobody was lifted and when the file cannot be written.
+// when nobody was lifted and when the file cannot be written; before it is, what progress throws.
 void WriteLiftedMotion(const LiftedLabels& lifted, const Skeleton& skeleton,
-                       const std::filesystem::path& path);
+                       const std::filesystem::path& path, const ProgressFn& progress = {});
 
 }  // namespace poselift
