@@ -6,8 +6,6 @@
 
 #include <algorithm>
 
-#include "lift/lift_labels.h"
-#include "lift/lifted_files.h"
 #include "src/input_error.h"
 #include "ui/label/label_edits.h"
 
@@ -15,7 +13,6 @@ namespace poselift {
 namespace {
 
 constexpr double kShake = 0.3;  // of the reach
-constexpr double kFps = 30.0;   // of frames without times
 
 }  // namespace
 
@@ -33,7 +30,9 @@ LabelSession::LabelSession(LabelProject* project, const PhotoLifter& lifter,
                 }
                 if (wake_) wake_();
               }),
-      motion_solver_(lifter, wake_) {
+      follow_job_(wake_),
+      motion_job_(wake_),
+      export_job_(wake_) {
   if (!layout_) throw InputError("found labels without a layout, wanted one, such as body15");
   handles_ = PoseHandles(*layout_);
   GoToFrame(0);
@@ -257,14 +256,6 @@ std::filesystem::path LabelSession::PicturePath() const {
   return image.empty() ? std::filesystem::path() : project_->dir() / image;
 }
 
-void LabelSession::Export(const std::filesystem::path& folder) const {
-  std::filesystem::create_directories(folder);
-  const bool is_motion = WhyFramesAlone(labels()).empty();
-  const LiftedLabels lifted = is_motion ? LiftAsMotion(lifter_, labels(), {})
-                                        : LiftLabels(lifter_, labels(), std::nullopt, {});
-  WriteLifted(lifted, labels(), lifter_.dictionary().skeleton, is_motion, kFps, folder);
-}
-
 std::string LabelSession::Title() const {
   std::string title = project_->path().filename().string();
   if (!labels().frames.empty() && !labels().frames[frame_index_].image.empty())
@@ -276,8 +267,7 @@ std::string LabelSession::Title() const {
 std::string LabelSession::Status() const {
   if (!project_->unsaved_reason().empty()) return "NOT SAVED: " + project_->unsaved_reason();
   if (labels().frames.empty()) return "no pictures";
-  if (const auto fraction = FollowProgress())
-    return fmt::format("following the labels: {:.0f} %, Esc stops it", 100.0 * *fraction);
+  if (const std::string working = Working(); !working.empty()) return working;
   if (!notice_.empty()) return notice_;
   if (nearer_)
     return fmt::format("click the joint that is farther from the camera than {}",

@@ -23,7 +23,6 @@
 #include "ui/label/label_edits.h"
 #include "ui/label/label_flow.h"
 #include "ui/label/label_project.h"
-#include "ui/label/motion_solver.h"
 #include "ui/label/person_motion.h"
 #include "ui/label/picture_hit.h"
 #include "ui/label/pose_drag.h"
@@ -92,6 +91,8 @@ class LabelSession {
 
   // While labels are followed through a video: how far that is.
   std::optional<double> FollowProgress() const;
+  // What goes on in the background that Action::kStop ends, in words; empty when nothing does.
+  std::string Working() const;
   // Ends when they have been followed; for programs without events.
   void WaitUntilFollowed();
 
@@ -107,20 +108,30 @@ class LabelSession {
 
   // The frames of the person at hand as one motion, asked for by Action::kSmoothMotion and there
   // when TakeAnswer says so. Null before the first; its message says why when there is none.
-  const PersonMotion* motion() const { return motion_ ? &*motion_ : nullptr; }
+  const PersonMotion* motion() const { return motion_.get(); }
   bool IsMotionCurrent() const;  // the person's labels are those that it was made of
   // Of the frame at hand; null where the motion has none, or was made of other labels of it.
   const LiftedPose* MotionPose() const;
   bool shows_motion = true;  // instead of frames by themselves
   bool ShowsMotion() const;  // here and now
   const LiftedPose* ShownPose() const;
-  MotionSolver& motion_solver() { return motion_solver_; }
+  // While it is made: how far that is. A new one ends the one before.
+  std::optional<double> MotionProgress() const;
+  void StopMotion() { motion_job_.Stop(); }
   void WaitUntilSmoothed();
   // To a frame that is not stayed at: not lifted by itself where the motion is shown.
   void PlayTo(size_t frame);
+
+  // Both in the background, of the labels as they are now. Throws InputError while another export
+  // goes on. Lifts all frames, as a motion where they are one (WhyFramesAlone), and leaves in a
+  // folder what `lift` does, but pictures.
+  void Export(const std::filesystem::path& folder);
   // One file of the motion, by its ending (LiftedFormats). Throws InputError also when there is no
   // motion, or none of these labels.
-  void ExportMotion(const std::filesystem::path& path) const;
+  void ExportMotion(const std::filesystem::path& path);
+  // Where the files are, once, when they have been written. Throws InputError when they cannot be.
+  std::optional<std::filesystem::path> TakeExported();
+  void WaitUntilExported() { export_job_.WaitUntilIdle(); }
 
   // How far the shown pose is from a landmark's label; nothing without one of them.
   std::optional<double> Residual_px(std::string_view landmark) const;
@@ -128,9 +139,6 @@ class LabelSession {
   std::filesystem::path PicturePath() const;  // of the frame at hand; empty without one
   // Points to pictures that moved there; returns how many. Throws InputError as LabelProject.
   size_t Relink(const std::filesystem::path& folder) { return project_->Relink(folder); }
-  // Lifts all frames, as a motion where they are one (WhyFramesAlone), and leaves in a folder what
-  // `lift` does, but pictures. Throws InputError.
-  void Export(const std::filesystem::path& folder) const;
 
   std::string Title() const;   // of the window: file, picture, whether all is saved
   std::string Status() const;  // a line for who works: what a click does, what went wrong
@@ -151,6 +159,8 @@ class LabelSession {
   bool DoFlow(Action action);
   void Follow(Reach reach);
   bool TakeFollowed();
+  void Stop();
+  void StartExport(BackgroundJob<std::filesystem::path>::Work work);
   bool DoPose(Action action);
   void ChangeFrames(bool adds);
   bool HasLabelsInForce() const { return observation_.Count(ObservedPoint::Kind::k2D) > 0; }
@@ -188,7 +198,8 @@ class LabelSession {
   std::vector<PoseHandle> handles_;
   std::optional<size_t> hovered_;
 
-  std::optional<PersonMotion> motion_;
+  std::shared_ptr<const PersonMotion> motion_;
+  std::uint64_t num_motions_ = 0;
   mutable std::vector<std::uint64_t> marks_;  // LabelMarks of the labels' state and person
   mutable std::pair<std::uint64_t, int> marks_of_;
   bool is_playing_ = false;
@@ -202,9 +213,10 @@ class LabelSession {
   LiftResult result_;
   size_t pose_index_ = 0;
   // The last members: their threads use the others.
-  std::unique_ptr<BackgroundJob<GuessedLabels>> follow_;
   PoseSolver solver_;
-  MotionSolver motion_solver_;
+  BackgroundJob<GuessedLabels> follow_job_;
+  BackgroundJob<PersonMotion> motion_job_;
+  BackgroundJob<std::filesystem::path> export_job_;
 };
 
 }  // namespace poselift

@@ -147,6 +147,9 @@ bool LabelSession::DoOnProject(Action action) {
     case Action::kSave:
       project_->Save();
       return true;
+    case Action::kStop:
+      Stop();
+      return true;
     case Action::kUndo:
     case Action::kRedo:
       drag_.reset();

@@ -22,9 +22,6 @@ bool LabelSession::DoFlow(Action action) {
       case Action::kFollowBackwards:
         Follow(Reach::kBackwards);
         return true;
-      case Action::kStop:
-        if (follow_) follow_->Stop();
-        return true;
       case Action::kCopyFollowed:
         Apply(PutGuesses(labels(), FollowFromFrameBefore(labels(), project_->dir(), Ref(), lifter_),
                          true));
@@ -52,33 +49,31 @@ bool LabelSession::DoFlow(Action action) {
 
 // In the background, from the labels as they are now.
 void LabelSession::Follow(Reach reach) {
-  if (follow_ || project_->read_only()) return;
-  follow_ = std::make_unique<BackgroundJob<GuessedLabels>>(
+  if (follow_job_.IsBusy() || project_->read_only()) return;
+  follow_job_.Start(
       [labels = labels(), dir = project_->dir(), ref = Ref(), reach](const ProgressFn& progress) {
         return FollowPerson(labels, dir, ref, reach, progress);
-      },
-      wake_);
+      });
 }
 
 std::optional<double> LabelSession::FollowProgress() const {
-  return follow_ ? std::optional(follow_->fraction()) : std::nullopt;
+  return follow_job_.IsBusy() ? std::optional(follow_job_.Fraction()) : std::nullopt;
 }
 
 bool LabelSession::TakeFollowed() {
-  if (!follow_ || !follow_->is_done()) return false;
-  const auto done = std::exchange(follow_, nullptr);
-  if (done->result())
-    Apply(PutGuesses(labels(), *done->result()));
-  else
-    notice_ = done->error().empty() ? "stopped: no labels were changed" : done->error();
-  return true;
+  try {
+    const auto guesses = follow_job_.Take();
+    if (guesses) Apply(PutGuesses(labels(), *guesses));
+    return guesses.has_value();
+  } catch (const std::exception& error) {
+    notice_ = error.what();
+    return true;
+  }
 }
 
 void LabelSession::WaitUntilFollowed() {
-  while (follow_) {
-    TakeFollowed();
-    std::this_thread::yield();
-  }
+  follow_job_.WaitUntilIdle();
+  TakeFollowed();
 }
 
 }  // namespace poselift

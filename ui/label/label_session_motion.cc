@@ -4,8 +4,6 @@
 // The frames of the person at hand as one motion.
 #include <algorithm>
 
-#include "lift/lifted_files.h"
-#include "src/input_error.h"
 #include "ui/label/label_session.h"
 
 namespace poselift {
@@ -23,7 +21,10 @@ int LabelSession::PersonOfMotion() const {
 bool LabelSession::DoMotion(Action action) {
   switch (action) {
     case Action::kSmoothMotion:
-      motion_solver_.Ask(labels(), PersonOfMotion());
+      motion_job_.Start([&lifter = lifter_, labels = labels(),
+                         id = PersonOfMotion()](const ProgressFn& progress) {
+        return LiftPersonAsMotion(lifter, labels, id, progress);
+      });
       return true;
     case Action::kShowMotion:
       shows_motion = !shows_motion;
@@ -32,23 +33,30 @@ bool LabelSession::DoMotion(Action action) {
       if (!ShowsMotion()) return false;
       shows_motion = false;
       return true;
-    case Action::kStop:
-      motion_solver_.Cancel();
-      return false;  // nor is anything else to go on
     default:
       return false;
   }
 }
 
+std::optional<double> LabelSession::MotionProgress() const {
+  return motion_job_.IsBusy() ? std::optional(motion_job_.Fraction()) : std::nullopt;
+}
+
 bool LabelSession::TakeMotion() {
-  std::optional<PersonMotion> motion = motion_solver_.Take();
+  std::optional<PersonMotion> motion;
+  try {
+    motion = motion_job_.Take();
+  } catch (const std::exception& error) {
+    motion = PersonMotion{.message = error.what()};
+  }
   if (!motion) return false;
   // One that could not be made does not take away the one before.
   if (!motion->HasPoses() && motion_ && motion_->HasPoses()) {
     notice_ = "no motion: " + motion->message;
     return true;
   }
-  motion_ = std::move(motion);
+  motion->number = ++num_motions_;
+  motion_ = std::make_shared<const PersonMotion>(std::move(*motion));
   return true;
 }
 
@@ -91,19 +99,8 @@ void LabelSession::PlayTo(size_t frame) {
 }
 
 void LabelSession::WaitUntilSmoothed() {
-  motion_solver_.WaitUntilIdle();
+  motion_job_.WaitUntilIdle();
   TakeAnswer();
-}
-
-void LabelSession::ExportMotion(const std::filesystem::path& path) const {
-  if (!motion_ || !motion_->HasPoses())
-    throw InputError("found no motion to export, wanted one: smooth the motion first");
-  if (!IsMotionCurrent())
-    throw InputError(
-        "found labels that have changed since the motion was made, wanted a motion of these: "
-        "smooth "
-        "the motion again");
-  WriteLiftedMotion(motion_->lifted, lifter_.dictionary().skeleton, path);
 }
 
 }  // namespace poselift

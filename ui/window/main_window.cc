@@ -3,28 +3,22 @@
 #include "ui/window/main_window.h"
 
 #include <QAction>
-#include <QCloseEvent>
-#include <QCoreApplication>
 #include <QDateTime>
 #include <QDockWidget>
-#include <QFileDialog>
 #include <QInputDialog>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QListWidget>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
-#include <QProcess>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QSplitter>
 #include <QStatusBar>
 #include <QTimer>
 #include <exception>
-#include <filesystem>
-#include <fstream>
 
-#include "ui/window/camera_dialog.h"
 #include "ui/window/image_from.h"
 #include "ui/window/key_list.h"
 #include "ui/window/motion_dock.h"
@@ -32,7 +26,6 @@
 #include "ui/window/player.h"
 #include "ui/window/pose_canvas.h"
 #include "ui/window/timeline.h"
-#include "ui/window/welcome.h"
 
 namespace poselift {
 namespace {
@@ -50,12 +43,7 @@ double Now_s() { return static_cast<double>(QDateTime::currentMSecsSinceEpoch())
 
 MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const KeyMap& keys)
     : lifter_(lifter), keys_(keys), pictures_(project->dir()), session_(project, lifter, [this] {
-        QMetaObject::invokeMethod(
-            this,
-            [this] {
-              if (session_.TakeAnswer()) Refresh();
-            },
-            Qt::QueuedConnection);
+        QMetaObject::invokeMethod(this, &MainWindow::TakeAnswers, Qt::QueuedConnection);
       }) {
   setObjectName("window");
   auto* const middle = new QSplitter(this);
@@ -86,7 +74,7 @@ MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const K
   });
   auto* const clock = new QTimer(this);
   connect(clock, &QTimer::timeout, this, [this] {
-    if (session_.FollowProgress()) status_->setText(QString::fromStdString(session_.Status()));
+    if (!session_.Working().empty()) status_->setText(QString::fromStdString(session_.Status()));
   });
   constexpr int kOften_ms = 200;
   clock->start(kOften_ms);
@@ -244,19 +232,6 @@ void MainWindow::Tell(const QString& text) {
   box->open();
 }
 
-void MainWindow::FindPictures() {
-  const QString folder = QFileDialog::getExistingDirectory(this, tr("Where are the pictures?"));
-  if (!folder.isEmpty()) FindPicturesIn(folder);
-}
-
-void MainWindow::FindPicturesIn(const QString& folder) {
-  size_t count = 0;
-  if (Try([&] { count = session_.Relink(folder.toStdString()); }))
-    statusBar()->showMessage(tr("%n picture(s) found", "", static_cast<int>(count)), 5000);
-  shown_frame_.reset();
-  Refresh();
-}
-
 void MainWindow::ShowKeys() {
   ShowKeyList(this, keys_, false,
               tr("Left button: place the joint at hand, or drag any. Right button: visible, "
@@ -265,32 +240,6 @@ void MainWindow::ShowKeys() {
                  "the keys that hide something do so until they are let go. Digits: to the joint "
                  "of that number. In the 3D view, left: "
                  "drag a joint, with Shift its limb alone, or turn. Right: pin a joint."));
-}
-
-// In a window of its own: what is at work here stays.
-void MainWindow::Open() {
-  QStringList arguments;
-  for (const std::string& input : Welcome::AskForPictures(this))
-    arguments << QString::fromStdString(input);
-  if (!arguments.isEmpty())
-    QProcess::startDetached(QCoreApplication::applicationFilePath(), arguments);
-}
-
-// Likewise; its stills are labelled there.
-void MainWindow::WatchCamera() {
-  const auto folder = session_.project().dir() / "live";
-  const QStringList arguments =
-      CameraDialog::AskForArguments(this, QString::fromStdString(folder.string()));
-  if (!arguments.isEmpty())
-    QProcess::startDetached(QCoreApplication::applicationFilePath(), arguments);
-}
-
-void MainWindow::NewPose() {
-  QString file = QFileDialog::getSaveFileName(this, tr("A pose without a picture"),
-                                              "pose.labels.json", tr("Labels (*.json)"), nullptr,
-                                              QFileDialog::DontConfirmOverwrite);
-  if (!file.isEmpty())
-    QProcess::startDetached(QCoreApplication::applicationFilePath(), {"--pose", file});
 }
 
 void MainWindow::AskHeight() {
@@ -302,22 +251,9 @@ void MainWindow::AskHeight() {
   Refresh();
 }
 
-void MainWindow::AskExport() {
-  const QString folder = QFileDialog::getExistingDirectory(this, tr("Export to a folder"));
-  if (!folder.isEmpty()) ExportTo(folder);
-}
-
-void MainWindow::ExportTo(const QString& folder) {
-  if (Try([&] { session_.Export(folder.toStdString()); }))
-    statusBar()->showMessage(tr("exported to %1").arg(folder), 5000);
-}
-
-void MainWindow::SaveScreenshot() {
-  const QPixmap picture = grab();
-  const QString file =
-      QFileDialog::getSaveFileName(this, tr("Save screenshot"), "poselift.png", tr("PNG (*.png)"));
-  if (!file.isEmpty() && !picture.save(file, "PNG"))
-    QMessageBox::warning(this, tr("Not saved"), tr("%1 cannot be written").arg(file));
+void MainWindow::TakeAnswers() {
+  if (session_.TakeAnswer()) Refresh();
+  SayExported();
 }
 
 void MainWindow::Refresh() {
@@ -362,19 +298,6 @@ void MainWindow::showEvent(QShowEvent* event) {
   const QString message = statusBar()->currentMessage();
   statusBar()->clearMessage();
   if (!message.isEmpty()) statusBar()->showMessage(message, kLong_ms);
-}
-
-// Where saving fails nothing is lost but by will: the steps are in the journal, or said not to be.
-void MainWindow::closeEvent(QCloseEvent* event) {
-  try {
-    if (!session_.project().read_only()) session_.Do(Action::kSave);
-  } catch (const std::exception& error) {
-    const auto answer = QMessageBox::warning(
-        this, tr("Not saved"), tr("%1\n\nClose all the same?").arg(error.what()),
-        QMessageBox::Close | QMessageBox::Cancel, QMessageBox::Cancel);
-    if (answer != QMessageBox::Close) return event->ignore();
-  }
-  event->accept();
 }
 
 }  // namespace poselift

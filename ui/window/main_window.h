@@ -35,7 +35,8 @@ class MainWindow : public QMainWindow {
   MainWindow(LabelProject* project, const PhotoLifter& lifter, const KeyMap& keys);
 
   LabelSession& session() { return session_; }
-  // All of the results of `lift` in a folder; says what went wrong, if anything did.
+  // All of the results of `lift` in a folder, in the background; says when they are there, or what
+  // went wrong.
   void ExportTo(const QString& folder);
   void ExportMotionTo(const QString& file);    // as the file's ending says
   void FindPicturesIn(const QString& folder);  // that are no more where the labels say
@@ -58,6 +59,7 @@ class MainWindow : public QMainWindow {
   QAction* Add(class QMenu* menu, Action action);
   void Do(Action action);
   bool* Shown(Action action) const;
+  void TakeAnswers();
   bool Try(const std::function<void()>& act);
   void Tell(const QString& text);
   void FindPictures();
@@ -67,6 +69,7 @@ class MainWindow : public QMainWindow {
   void NewPose();
   void AskExport();
   void AskExportMotion();
+  void SayExported();
   void SaveScreenshot();
   void ShowPicture();
   void ShowJoints();

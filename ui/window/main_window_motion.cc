@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the poselift authors
 //
-// The motion of the person at hand: its dock, playing it, writing it.
-#include <QFileDialog>
+// The motion of the person at hand: its dock, playing it.
 #include <QSlider>
-#include <QStatusBar>
 
-#include "lift/lifted_files.h"
 #include "ui/window/main_window.h"
 #include "ui/window/motion_dock.h"
 #include "ui/window/player.h"
 
 namespace poselift {
-namespace {
-
-QString TextOf(std::string_view text) {
-  return QString::fromUtf8(text.data(), static_cast<int>(text.size()));
-}
-
-}  // namespace
-
 // Hidden until somebody asks for a motion: before, there is more to see in the picture.
 void MainWindow::AddMotion() {
   motion_ = new MotionDock(&session_, keys_, this);
@@ -39,25 +28,6 @@ void MainWindow::AddMotion() {
     session_.GoToFrame(session_.frame_index());
     Refresh();
   });
-}
-
-void MainWindow::AskExportMotion() {
-  QStringList filters;
-  for (const LiftedFormat& format : LiftedFormats())
-    filters << QString("%1 (*%2)").arg(tr(format.name.data()), TextOf(format.ending));
-  QString chosen = filters.front();
-  QString file = QFileDialog::getSaveFileName(this, tr("Export the motion"), "motion",
-                                              filters.join(";;"), &chosen);
-  if (file.isEmpty()) return;
-  const qsizetype index = filters.indexOf(chosen);
-  if (QFileInfo(file).suffix().isEmpty() && index >= 0)
-    file += TextOf(LiftedFormats()[static_cast<size_t>(index)].ending);
-  ExportMotionTo(file);
-}
-
-void MainWindow::ExportMotionTo(const QString& file) {
-  if (Try([&] { session_.ExportMotion(file.toStdString()); }))
-    statusBar()->showMessage(tr("exported to %1").arg(file), 5000);
 }
 
 }  // namespace poselift

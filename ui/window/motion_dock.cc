@@ -93,21 +93,22 @@ QWidget* MotionDock::MakeControls(const KeyMap& keys) {
 }
 
 void MotionDock::AskOrCancel() {
-  if (!session_->motion_solver().IsBusy()) {
+  if (!session_->MotionProgress()) {
     emit Asked();
     return;
   }
-  session_->motion_solver().Cancel();
+  session_->StopMotion();
   emit Changed();
 }
 
 void MotionDock::ShowProgress() {
-  progress_->setValue(static_cast<int>(std::lround(100.0 * session_->motion_solver().Progress())));
-  if (!session_->motion_solver().IsBusy()) emit Changed();
+  const auto fraction = session_->MotionProgress();
+  progress_->setValue(static_cast<int>(std::lround(100.0 * fraction.value_or(1.0))));
+  if (!fraction) emit Changed();
 }
 
 QString MotionDock::Text() const {
-  if (session_->motion_solver().IsBusy()) return {};
+  if (session_->MotionProgress()) return {};
   const PersonMotion* const motion = session_->motion();
   if (!motion) return tr("No motion yet");
   if (!motion->HasPoses()) return tr("No motion: the reason stands beside");
@@ -122,7 +123,7 @@ QString MotionDock::Text() const {
 }
 
 void MotionDock::Refresh() {
-  const bool is_busy = session_->motion_solver().IsBusy();
+  const bool is_busy = session_->MotionProgress().has_value();
   if (is_busy && !timer_.isActive()) timer_.start();
   if (!is_busy) timer_.stop();
   ask_->setText(is_busy ? tr("Cancel") : tr("Smooth motion"));

@@ -124,10 +124,20 @@ TEST_F(LabelSessionMotionTest, WhatIsExportedIsWhatLiftMakesOfTheLabels) {
   const fs::path folder = testing::ScratchDir();
   EXPECT_THROW(session_.ExportMotion(folder / "walk.bvh"), InputError);
   Smooth();
-  for (const LiftedFormat& format : LiftedFormats())
-    session_.ExportMotion(folder / ("walk" + std::string(format.ending)));
-  EXPECT_THROW(session_.ExportMotion(folder / "walk.txt"), InputError);
+  const auto take = [&] {
+    session_.WaitUntilExported();
+    return session_.TakeExported();
+  };
+  for (const LiftedFormat& format : LiftedFormats()) {
+    const fs::path file = folder / ("walk" + std::string(format.ending));
+    session_.ExportMotion(file);
+    EXPECT_EQ(take(), file);
+  }
+  session_.ExportMotion(folder / "walk.txt");
+  EXPECT_THROW(take(), InputError);
   session_.Export(folder / "window");
+  EXPECT_EQ(take(), folder / "window");
+  EXPECT_FALSE(session_.TakeExported());  // once
   const auto run = testing::RunProgram("lift --labels " + project_.path().string() + " --out " +
                                        (folder / "program").string());
   ASSERT_EQ(run.code, 0) << run.err;

@@ -3,12 +3,11 @@
 //
 // Real: labels of a walk in every frame, a part of them, the dictionary and the motion codebook
 // that ship. Checked: a person's motion is what the program lifts; marks tell whose labels changed
-// and where; the solver's thread makes it, says how far it is, and can be told to stop.
+// and where.
 #include "ui/label/person_motion.h"
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 
 #include "lift/dictionary_file.h"
@@ -17,7 +16,6 @@
 #include "src/joint_angles.h"
 #include "tests/support/support.h"
 #include "tests/support/walk_labels.h"
-#include "ui/label/motion_solver.h"
 
 namespace poselift {
 namespace {
@@ -89,40 +87,6 @@ TEST(LabelMarks, TellWhoseLabelsChangedAndWhere) {
       {.kind = LabelHint::Kind::kOnFloor, .joint = "left_foot"});
   const auto after = LabelMarks(walk, id);
   for (size_t f = 0; f < after.size(); ++f) EXPECT_EQ(after[f] != before[f], f == 2 || f == 4) << f;
-}
-
-TEST_F(PersonMotionTest, TheSolverMakesTheNewestOneAndSaysHowFarItIs) {
-  std::atomic<int> num_answers = 0;
-  MotionSolver solver(lifter_, [&] { ++num_answers; });
-  const Labels walk = ShortWalk(12, -1);
-  const int id = walk.frames[0].people[0].id;
-  solver.Ask(ShortWalk(40, -1), id);
-  solver.Ask(walk, id);
-  EXPECT_TRUE(solver.IsBusy());
-  solver.WaitUntilIdle();
-  EXPECT_FALSE(solver.IsBusy());
-  EXPECT_EQ(solver.Progress(), 1.0);
-  EXPECT_GE(num_answers, 1);
-  const auto motion = solver.Take();
-  ASSERT_TRUE(motion);
-  ASSERT_TRUE(motion->HasPoses()) << motion->message;
-  EXPECT_EQ(motion->times_s.size(), 12);
-  EXPECT_EQ(motion->label_marks, LabelMarks(walk, id));
-  EXPECT_FALSE(solver.Take());
-}
-
-TEST_F(PersonMotionTest, TheSolverStopsWhenItIsToldTo) {
-  const Labels walk = ShortWalk(100, -1);
-  std::optional<MotionSolver> solver(std::in_place, lifter_, nullptr);
-  solver->Ask(walk, walk.frames[0].people[0].id);
-  while (solver->Progress() == 0.0) std::this_thread::yield();
-  solver->Cancel();
-  EXPECT_FALSE(solver->IsBusy());
-  solver->WaitUntilIdle();
-  EXPECT_LT(solver->Progress(), 1.0);  // it did not go on to the end
-  EXPECT_FALSE(solver->Take());
-  solver->Ask(walk, walk.frames[0].people[0].id);
-  solver.reset();  // nor waits for the end
 }
 
 TEST_F(PersonMotionTest, IsWrittenByTheEndingOfTheFile) {

@@ -252,6 +252,7 @@ TEST_F(PoseDragTest, KeyFramesAreCopiedPosedAndRemoved) {
   EXPECT_EQ(project_->labels().frames.size(), 2U);
   const fs::path folder = ScratchDir() / "hero";
   session_->Export(folder);
+  session_->WaitUntilExported();
   EXPECT_EQ(ReadMotion(folder / "poses.bvh").frames.size(), 2U);
   session_->Do(Action::kUndo);
   EXPECT_EQ(project_->labels().frames.size(), 3U);

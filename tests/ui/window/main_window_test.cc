@@ -37,6 +37,7 @@ TEST_F(MainWindowTest, FifteenClicksLiftTheSampleAsTheProgramDoes) {
   QTest::keyClick(window_.get(), Qt::Key_S, Qt::ControlModifier);
   EXPECT_TRUE(project_->IsSaved());
   window_->ExportTo(QString::fromStdString((folder_ / "window").string()));
+  window_->session().WaitUntilExported();
   const auto run = RunProgram("lift " + (folder_ / "kick.jpg").string() + " --out " +
                               (folder_ / "program").string());
   ASSERT_EQ(run.code, 0) << run.err;
@@ -63,6 +64,7 @@ TEST_F(MainWindowTest, TheSkierIsLabelledAndExportedAsTheProgramLiftsIt) {
   ASSERT_NE(window_->session().pose(), nullptr);
   QTest::keyClick(window_.get(), Qt::Key_S, Qt::ControlModifier);
   window_->ExportTo(QString::fromStdString((folder_ / "window").string()));
+  window_->session().WaitUntilExported();
   const auto run =
       RunProgram("lift " + copy_.string() + " --out " + (folder_ / "program").string());
   ASSERT_EQ(run.code, 0) << run.err;
@@ -157,8 +159,9 @@ TEST_F(MainWindowTest, ASecondWindowOnTheSameLabelsMayOnlyLook) {
 TEST_F(MainWindowTest, WhatCannotBeExportedIsSaidAndNothingEnds) {
   ClickAll();
   window_->ExportTo("/dev/null/none");
-  auto* const message = window_->findChild<QMessageBox*>("message");
-  ASSERT_NE(message, nullptr);
+  QMessageBox* message = nullptr;
+  ASSERT_TRUE(QTest::qWaitFor([&] { return message = window_->findChild<QMessageBox*>("message"); },
+                              60000));
   EXPECT_FALSE(message->text().isEmpty());
   message->close();
   EXPECT_EQ(Landmarks().size(), 15U);

@@ -15,6 +15,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QStatusBar>
 #include <QTest>
 
 #include "lift/default_dictionary.h"
@@ -99,7 +100,7 @@ TEST_F(MotionDockTest, ComesWhenSomebodyAsksForAMotion) {
   QTest::keyClick(window_.get(), Qt::Key_M);
   EXPECT_TRUE(plot_->isVisible());
   QTest::keyClick(window_.get(), Qt::Key_Escape);
-  EXPECT_FALSE(session().motion_solver().IsBusy());
+  EXPECT_FALSE(session().MotionProgress());
 }
 
 TEST_F(MotionDockTest, BothViewsShowTheMotionWhileThatIsOn) {
@@ -187,7 +188,37 @@ TEST_F(MotionDockTest, TheMotionIsExportedOrTheReasonSaid) {
   message->close();
   Smooth();
   window_->ExportMotionTo(QString::fromStdString(file.string()));
+  session().WaitUntilExported();
   EXPECT_TRUE(std::filesystem::exists(file));
+}
+
+TEST_F(MotionDockTest, AnExportGoesOnWhileTheWindowIsWorkedIn) {
+  Open(30);
+  const auto folder = testing::ScratchDir() / "window";
+  std::filesystem::remove_all(folder);
+  window_->ExportTo(QString::fromStdString(folder.string()));
+  EXPECT_TRUE(Child<QLabel>("status")->text().contains("exporting"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "poses.json"));
+  QTest::keyClick(window_.get(), Qt::Key_Delete);
+  EXPECT_TRUE(project_->history().CanUndo());
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return window_->statusBar()->currentMessage().contains("exported to"); }, 60000));
+  EXPECT_TRUE(Child<QLabel>("status")->text().contains("exported to"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "poses.bvh"));
+}
+
+TEST_F(MotionDockTest, AnExportIsStoppedByAKeyAndEndsWithTheWindow) {
+  Open(60);
+  const auto folder = testing::ScratchDir() / "window";
+  std::filesystem::remove_all(folder);
+  window_->ExportTo(QString::fromStdString(folder.string()));
+  QTest::keyClick(window_.get(), Qt::Key_Escape);
+  EXPECT_TRUE(Child<QLabel>("status")->text().contains("stopped"));
+  session().WaitUntilExported();
+  window_->ExportTo(QString::fromStdString(folder.string()));
+  EXPECT_TRUE(window_->close());
+  window_.reset();
+  EXPECT_FALSE(std::filesystem::exists(folder / "poses.json"));
 }
 
 }  // namespace

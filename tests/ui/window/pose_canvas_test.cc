@@ -137,6 +137,7 @@ TEST_F(PoseCanvasTest, APoseIsMadeFromNothingAndExported) {
   const Eigen::Vector3d knee_m = Place_m("left_knee");
   QTest::keyClick(window_.get(), Qt::Key_S, Qt::ControlModifier);
   window_->ExportTo(QString::fromStdString((folder_ / "hero").string()));
+  window_->session().WaitUntilExported();
   const Motion motion = ReadMotion(folder_ / "hero/poses.bvh");
   ASSERT_EQ(motion.frames.size(), 2U);
   const Pose3 joints_m = JointPositions(motion.skeleton, motion.frames[1]);
