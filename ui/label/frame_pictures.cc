@@ -12,10 +12,11 @@
 
 namespace poselift {
 
-cv::Mat FramePictures::Read(const FrameLabels& frame) {
+cv::Mat FramePictures::Read(const FrameLabels& frame, const ProgressFn& progress) {
   if (frame.image.empty()) return {};
   const std::filesystem::path path = dir_ / frame.image;
-  return frame.frame && IsVideoFile(path) ? ReadFrame(path, *frame.frame) : ReadImage(path);
+  if (!frame.frame || !IsVideoFile(path)) return ReadImage(path);
+  return ReadFrame(path, *frame.frame, progress);
 }
 
 void FramePictures::WaitForTimes() {
@@ -58,10 +59,13 @@ void FramePictures::Keep(int index, const cv::Mat& bgr) {
 }
 
 // Keeps the frames from the first to the last; false when the video ends before.
-bool FramePictures::Decode(int first, int last) {
-  for (; next_ < first && video_->Skip_s(); ++next_) {
-  }
-  while (next_ >= first && next_ <= last) {
+bool FramePictures::Decode(int first, int last, const ProgressFn& progress) {
+  const int from = next_;
+  const auto so_far = [&] {
+    if (progress) progress(static_cast<double>(next_ - from) / (last - from + 1));
+  };
+  for (; next_ < first && video_->Skip_s(); so_far()) ++next_;
+  for (; next_ >= first && next_ <= last; so_far()) {
     const auto frame = video_->Next();
     if (!frame) return false;
     Keep(next_++, frame->bgr);
@@ -69,7 +73,8 @@ bool FramePictures::Decode(int first, int last) {
   return next_ > last;
 }
 
-cv::Mat FramePictures::ReadFrame(const std::filesystem::path& path, int index) {
+cv::Mat FramePictures::ReadFrame(const std::filesystem::path& path, int index,
+                                 const ProgressFn& progress) {
   if (path != path_ || !video_) Open(path);
   const int before = std::exchange(last_, index);
   const auto kept = std::ranges::find(kept_, index, &std::pair<int, cv::Mat>::first);
@@ -81,11 +86,11 @@ cv::Mat FramePictures::ReadFrame(const std::filesystem::path& path, int index) {
   const bool is_going_back = index < before && index > before - kBack;
   const int first = is_going_back ? std::max(0, index - back) : index;
   GoTo(first);
-  if (Decode(first, index)) return kept_.back().second;
+  if (Decode(first, index, progress)) return kept_.back().second;
   // OpenCV counts frames by their times after a jump, and may take an earlier one for the last.
   if (is_sought_) {
     Open(path_);
-    if (Decode(index, index)) return kept_.back().second;
+    if (Decode(index, index, progress)) return kept_.back().second;
   }
   throw InputError(path, fmt::format("has {} frames, wanted frame {}", next_, index));
 }

@@ -11,6 +11,7 @@
 
 #include "src/io/video.h"
 #include "src/labels.h"
+#include "src/progress.h"
 #include "ui/label/frame_times.h"
 
 namespace poselift {
@@ -25,8 +26,9 @@ class FramePictures {
   explicit FramePictures(std::filesystem::path dir) : dir_(std::move(dir)) {}
 
   // BGR, upright; empty for a frame without a picture. Throws InputError for what cannot be read,
-  // and for a frame that the video does not have.
-  cv::Mat Read(const FrameLabels& frame);
+  // and for a frame that the video does not have; what progress throws comes through, and what was
+  // decoded until then is not in vain.
+  cv::Mat Read(const FrameLabels& frame, const ProgressFn& progress = {});
   // Until any frame of the video at hand is reached at once.
   void WaitForTimes();
   int num_seeks() const { return num_seeks_; }  // that led to their frame
@@ -36,10 +38,10 @@ class FramePictures {
   static constexpr int kNear = 48;  // frames, that are sooner decoded than looked for
   static constexpr int kBack = 12;  // so many are kept when somebody goes back frame by frame
 
-  cv::Mat ReadFrame(const std::filesystem::path& path, int index);
+  cv::Mat ReadFrame(const std::filesystem::path& path, int index, const ProgressFn& progress);
   void Open(const std::filesystem::path& path);
   void GoTo(int index);
-  bool Decode(int first, int last);
+  bool Decode(int first, int last, const ProgressFn& progress);
   void Keep(int index, const cv::Mat& bgr);
 
   std::filesystem::path dir_;

@@ -12,14 +12,11 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
-#include <QSignalBlocker>
-#include <QSlider>
 #include <QSplitter>
 #include <QStatusBar>
 #include <QTimer>
 #include <exception>
 
-#include "ui/window/image_from.h"
 #include "ui/window/key_list.h"
 #include "ui/window/motion_dock.h"
 #include "ui/window/picture_canvas.h"
@@ -42,9 +39,11 @@ double Now_s() { return static_cast<double>(QDateTime::currentMSecsSinceEpoch())
 }  // namespace
 
 MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const KeyMap& keys)
-    : lifter_(lifter), keys_(keys), pictures_(project->dir()), session_(project, lifter, [this] {
-        QMetaObject::invokeMethod(this, &MainWindow::TakeAnswers, Qt::QueuedConnection);
-      }) {
+    : lifter_(lifter),
+      keys_(keys),
+      pictures_(project->dir()),
+      reading_(InWindow(&MainWindow::TakePicture)),
+      session_(project, lifter, InWindow(&MainWindow::TakeAnswers)) {
   setObjectName("window");
   auto* const middle = new QSplitter(this);
   middle->setObjectName("views");
@@ -75,6 +74,7 @@ MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const K
   auto* const clock = new QTimer(this);
   connect(clock, &QTimer::timeout, this, [this] {
     if (!session_.Working().empty()) status_->setText(QString::fromStdString(session_.Status()));
+    SayReading();
   });
   constexpr int kOften_ms = 200;
   clock->start(kOften_ms);
@@ -85,6 +85,11 @@ MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const K
   for (const std::string& message : project->messages())
     messages << QString::fromStdString(message);
   if (!messages.isEmpty()) statusBar()->showMessage(messages.join("; "), kLong_ms);
+}
+
+// For other threads, to call at any time.
+std::function<void()> MainWindow::InWindow(void (MainWindow::*act)()) {
+  return [this, act] { QMetaObject::invokeMethod(this, act, Qt::QueuedConnection); };
 }
 
 QAction* MainWindow::Add(QMenu* menu, Action action) {
@@ -273,23 +278,6 @@ void MainWindow::Refresh() {
   pose_->update();
   timeline_->update();
   motion_->Refresh();
-}
-
-void MainWindow::ShowPicture() {
-  if (session_.labels().frames.empty()) return;
-  const QSignalBlocker blocker(frames_);
-  frames_->setRange(0, static_cast<int>(session_.labels().frames.size()) - 1);
-  frames_->setValue(static_cast<int>(session_.frame_index()));
-  if (shown_frame_ == session_.frame_index()) return;
-  shown_frame_ = session_.frame_index();
-  const FrameLabels& frame = session_.labels().frames.at(*shown_frame_);
-  const QImage ground = EmptyPicture({frame.width_px, frame.height_px});
-  try {
-    picture_->SetPicture(frame.image.empty() ? ground : ImageFrom(pictures_.Read(frame)));
-  } catch (const std::exception& error) {
-    picture_->SetPicture(ground);
-    statusBar()->showMessage(error.what() + tr("; File, Find moved pictures says where it is now"));
-  }
 }
 
 // What was said before there was a window hides the status line only now.

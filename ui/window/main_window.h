@@ -2,11 +2,13 @@
 // Copyright (c) 2026 the poselift authors
 #pragma once
 
+#include <QImage>
 #include <QMainWindow>
 #include <functional>
 #include <map>
 #include <vector>
 
+#include "ui/label/background_job.h"
 #include "ui/label/frame_pictures.h"
 #include "ui/label/key_map.h"
 #include "ui/label/label_session.h"
@@ -40,6 +42,7 @@ class MainWindow : public QMainWindow {
   void ExportTo(const QString& folder);
   void ExportMotionTo(const QString& file);    // as the file's ending says
   void FindPicturesIn(const QString& folder);  // that are no more where the labels say
+  void WaitForPicture();                       // of the frame at hand; for programs without events
 
  public slots:
   void Refresh();
@@ -57,6 +60,7 @@ class MainWindow : public QMainWindow {
   void AddLook();
   void AddMotion();
   QAction* Add(class QMenu* menu, Action action);
+  std::function<void()> InWindow(void (MainWindow::*act)());
   void Do(Action action);
   bool* Shown(Action action) const;
   void TakeAnswers();
@@ -72,6 +76,9 @@ class MainWindow : public QMainWindow {
   void SayExported();
   void SaveScreenshot();
   void ShowPicture();
+  void TakePicture();
+  void SayReading();
+  QImage Ground() const;
   void ShowJoints();
   void ShowHints();
   void AskHeight();
@@ -80,7 +87,8 @@ class MainWindow : public QMainWindow {
   KeyMap keys_;
   KeyRepeat repeat_;
   KeyPeek peek_;
-  FramePictures pictures_;
+  FramePictures pictures_;         // in the thread that reads alone
+  BackgroundJob<QImage> reading_;  // the picture of the frame at hand
   std::map<Action, QAction*> actions_;
   PictureCanvas* picture_ = nullptr;
   PoseCanvas* pose_ = nullptr;

@@ -9,6 +9,7 @@
 #include "ui/window/player.h"
 
 namespace poselift {
+
 // Hidden until somebody asks for a motion: before, there is more to see in the picture.
 void MainWindow::AddMotion() {
   motion_ = new MotionDock(&session_, keys_, this);
@@ -19,7 +20,8 @@ void MainWindow::AddMotion() {
   connect(motion_, &MotionDock::Asked, this, [this] { Do(Action::kSmoothMotion); });
   connect(motion_, &MotionDock::Changed, this, &MainWindow::Refresh);
   connect(motion_, &MotionDock::Chosen, frames_, &QSlider::setValue);
-  player_ = new Player(&session_, this);
+  player_ = new Player(
+      &session_, [this] { return reading_.IsBusy(); }, this);
   connect(player_, &Player::FrameDue, this, [this](int frame) {
     session_.PlayTo(static_cast<size_t>(frame));
     Refresh();

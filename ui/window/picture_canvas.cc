@@ -35,6 +35,10 @@ void PictureCanvas::SetPicture(const QImage& picture) {
   update();
 }
 
+void PictureCanvas::SetNote(const QString& note) {
+  if (std::exchange(note_, note) != note) update();
+}
+
 void PictureCanvas::Zoom(double factor) {
   QPointF at = mapFromGlobal(QCursor::pos());
   if (!rect().contains(at.toPoint())) at = QPointF(width(), height()) / 2.0;

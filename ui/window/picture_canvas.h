@@ -4,6 +4,7 @@
 
 #include <QImage>
 #include <QPointF>
+#include <QString>
 #include <QWidget>
 #include <vector>
 
@@ -27,7 +28,8 @@ class PictureCanvas : public QWidget {
 
   // Seen as the one before; fitted until somebody zooms or pans.
   void SetPicture(const QImage& picture);
-  void Zoom(double factor);  // about the cursor, or the middle
+  void SetNote(const QString& note);  // over all, in the middle; empty: none
+  void Zoom(double factor);           // about the cursor, or the middle
   void Fit();
   void FullSize();
   void ZoomToBox();  // the next drag of the left button draws what is to be seen
@@ -74,6 +76,7 @@ class PictureCanvas : public QWidget {
   void PaintLabels(QPainter* painter, const PersonLabels& person, bool is_at_hand) const;
 
   LabelSession* session_;
+  QString note_;
   std::vector<QImage> levels_;  // of the picture, each half as large as the one before
   ViewTransform view_;
   bool is_fitted_ = true;

@@ -26,6 +26,10 @@ void PictureCanvas::paintEvent(QPaintEvent* /*event*/) {
   painter.fillRect(rect(), palette().color(QPalette::Dark));
   PaintAll(&painter, rect());
   if (shows_loupe && cursor_) PaintLoupe(&painter);
+  if (!note_.isEmpty()) {
+    painter.setPen(Qt::black);
+    painter.drawText(rect(), Qt::AlignCenter, note_);
+  }
   if (!box_) return;
   painter.setBrush(Qt::NoBrush);
   painter.setPen(QPen(palette().color(QPalette::Highlight), 1.5, Qt::DashLine));

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the poselift authors
 #include "ui/window/player.h"
 
+#include <utility>
+
 namespace poselift {
 namespace {
 
@@ -9,7 +11,8 @@ constexpr int kTick_ms = 4;
 
 }  // namespace
 
-Player::Player(LabelSession* session, QObject* parent) : QObject(parent), session_(session) {
+Player::Player(LabelSession* session, std::function<bool()> is_late, QObject* parent)
+    : QObject(parent), session_(session), is_late_(std::move(is_late)) {
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.setInterval(kTick_ms);
   connect(&timer_, &QTimer::timeout, this, &Player::Tick);
@@ -29,6 +32,7 @@ void Player::Toggle() {
 void Player::Tick() {
   if (!playback_) return;
   if (session_->frame_index() != shown_) return Stop();
+  if (is_late_()) return;
   const double elapsed_s = static_cast<double>(clock_.nsecsElapsed()) * 1e-9;
   const size_t frame = playback_->FrameAt(elapsed_s);
   if (frame != shown_) {

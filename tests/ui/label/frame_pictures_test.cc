@@ -103,6 +103,35 @@ TEST(FramePictures, AVideoOfUnevenTimesIsReadInAnyOrder) {
   ExpectAnyOrder(uneven, 3);
 }
 
+// Who is stopped on the way to a far frame may go to any other.
+TEST(FramePictures, AFrameIsReadInPartsWhenAnotherOneIsWantedMeanwhile) {
+  const fs::path file = testing::ScratchDir() / "stopped.mp4";
+  testing::WriteVideo(file, MovingTexture(160), 30.0);
+  const std::vector<cv::Mat> all = AllFrames(file);
+  FramePictures pictures(file.parent_path());
+  const auto frame_of = [&](int index) {
+    return FrameLabels{.image = file.filename().string(), .frame = index};
+  };
+  struct Stopped {};
+  for (const int wanted : {159, 80, 0, 100, 90}) {
+    double before = 0.0;
+    const auto stop = [&](double fraction) {
+      EXPECT_GE(fraction, before);
+      EXPECT_LE(fraction, 1.0);
+      before = fraction;
+      if (fraction >= 0.5) throw Stopped();
+    };
+    try {
+      pictures.Read(frame_of(wanted), stop);  // what was kept is there at once
+    } catch (const Stopped&) {
+    }
+    const int other = (wanted + 70) % 160;
+    EXPECT_TRUE(AreSame(pictures.Read(frame_of(other)), all[static_cast<size_t>(other)])) << other;
+    EXPECT_TRUE(AreSame(pictures.Read(frame_of(wanted)), all[static_cast<size_t>(wanted)]))
+        << wanted;
+  }
+}
+
 struct Kind {
   std::string name, ending, how;
   int least_seeks;

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/made_up_video.h"
 #include "tests/support/mutation.h"
 #include "tests/support/run_program.h"
 #include "tests/ui/window/sample_window.h"
@@ -137,6 +138,7 @@ TEST_F(MainWindowTest, PicturesThatMovedAreFoundAgain) {
   project_.reset();
   project_ = std::make_unique<LabelProject>(file_);
   window_ = std::make_unique<MainWindow>(project_.get(), lifter_, KeyMap());
+  window_->WaitForPicture();
   EXPECT_TRUE(window_->statusBar()->currentMessage().contains("Find moved pictures"));
   window_->FindPicturesIn(QString::fromStdString((folder_ / "moved").string()));
   EXPECT_EQ(fs::weakly_canonical(window_->session().PicturePath()),
@@ -167,6 +169,37 @@ TEST_F(MainWindowTest, WhatCannotBeExportedIsSaidAndNothingEnds) {
   EXPECT_EQ(Landmarks().size(), 15U);
 }
 
+// What is shown is of the frame at hand, however the jumps and the pictures overtake each other.
+TEST_F(MainWindowTest, TheNewestPictureThatIsWantedIsShown) {
+  const fs::path video = folder_ / "long.mp4";
+  constexpr int kFrames = 1500;
+  std::vector<cv::Mat> pictures;
+  for (int f = 0; f < kFrames; ++f)
+    pictures.emplace_back(48, 64, CV_8UC3, cv::Scalar::all(255.0 * f / kFrames));
+  testing::WriteVideo(video, pictures, 30.0);
+  for (const char* left : {"long.labels.json", ".long.labels.json.journal"})
+    fs::remove(folder_ / left);
+  LabelProject clip(FindLabelsFile({video.string()}, "", "body15"));
+  MainWindow window(&clip, lifter_, KeyMap());
+  window.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
+  auto* const picture = window.findChild<PictureCanvas*>("picture");
+  auto* const frames = window.findChild<QSlider*>("frames");
+  const auto shown_at = [&](int frame) {
+    frames->setValue(frame);
+    window.WaitForPicture();
+    return picture->grab().toImage();
+  };
+  const QImage first = shown_at(0), middle = shown_at(kFrames / 2), last = shown_at(kFrames - 1);
+  EXPECT_NE(first, middle);
+  EXPECT_NE(middle, last);
+  for (const int frame : {10, kFrames - 1, 3, kFrames - 2}) frames->setValue(frame);
+  EXPECT_EQ(shown_at(kFrames / 2), middle);
+  for (const int frame : {kFrames - 1, 7}) frames->setValue(frame);
+  EXPECT_EQ(shown_at(0), first);
+  frames->setValue(kFrames - 1);  // the window may end before it is read
+}
+
 TEST_F(MainWindowTest, AVideoIsLabelledAlongItsTimeline) {
   const fs::path file = folder_ / "clip.labels.json";
   for (const char* left : {"clip.labels.json", ".clip.labels.json.journal"})
@@ -177,9 +210,11 @@ TEST_F(MainWindowTest, AVideoIsLabelledAlongItsTimeline) {
   window.show();
   auto* const picture = window.findChild<PictureCanvas*>("picture");
   auto* const timeline = window.findChild<QWidget*>("timeline");
+  window.WaitForPicture();
   const QImage first = picture->grab().toImage();
   QTest::mouseClick(timeline, Qt::LeftButton, {}, {timeline->width() / 2, 5});
   EXPECT_EQ(window.session().frame_index(), 45U);
+  window.WaitForPicture();
   EXPECT_NE(picture->grab().toImage(), first);
   const QImage before = timeline->grab().toImage();
   QTest::mouseClick(picture, Qt::LeftButton, {}, {300, 200});

@@ -47,6 +47,7 @@ class MotionDockTest : public ::testing::Test {
     window_ = std::make_unique<MainWindow>(project_.get(), lifter_, KeyMap());
     window_->show();
     ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+    window_->WaitForPicture();
     plot_ = window_->findChild<AnglePlotWidget*>("angle_plot");
     EXPECT_FALSE(plot_->isVisible());
     window_->findChild<MotionDock*>()->show();
@@ -176,6 +177,23 @@ TEST_F(MotionDockTest, WhoGoesToAFrameStopsPlaying) {
   QTest::keyClick(window_.get(), Qt::Key_Home);
   ASSERT_TRUE(QTest::qWaitFor([&] { return !player->is_playing(); }, 60000));
   EXPECT_EQ(session().frame_index(), 0U);
+}
+
+TEST_F(MotionDockTest, NoFrameIsDueWhileTheOneBeforeIsNotThere) {
+  Open(6);
+  bool is_late = true;
+  Player player(
+      &session(), [&] { return is_late; }, nullptr);
+  QSignalSpy frames(&player, &Player::FrameDue);
+  QObject::connect(&player, &Player::FrameDue,
+                   [&](int frame) { session().PlayTo(static_cast<size_t>(frame)); });
+  player.Toggle();
+  QTest::qWait(300);  // longer than the frames take
+  EXPECT_EQ(frames.count(), 0);
+  EXPECT_TRUE(player.is_playing());
+  is_late = false;
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !player.is_playing(); }, 60000));
+  EXPECT_EQ(session().frame_index(), 5U);
 }
 
 TEST_F(MotionDockTest, TheMotionIsExportedOrTheReasonSaid) {

@@ -63,6 +63,7 @@ class SampleWindow : public ::testing::Test {
     window_ = std::make_unique<MainWindow>(project_.get(), lifter_, KeyMap());
     window_->show();
     ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+    window_->WaitForPicture();
     picture_ = window_->findChild<PictureCanvas*>("picture");
   }
 

@@ -186,6 +186,7 @@ TEST_F(Screenshots, OfAMotion) {
   window.session().GoToFrame(52);
   window.session().WaitUntilSolved();
   window.Refresh();
+  window.WaitForPicture();
   Take("label-motion", &window);
 }
 
