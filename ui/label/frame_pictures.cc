@@ -16,21 +16,23 @@ cv::Mat FramePictures::Read(const FrameLabels& frame, const ProgressFn& progress
   if (frame.image.empty()) return {};
   const std::filesystem::path path = dir_ / frame.image;
   if (!frame.frame || !IsVideoFile(path)) return ReadImage(path);
-  return ReadFrame(path, *frame.frame, progress);
+  return ReadFrame(frame.image, *frame.frame, progress);
 }
 
 void FramePictures::WaitForTimes() {
   if (times_) times_->WaitUntilRead();
 }
 
-void FramePictures::Open(const std::filesystem::path& path) {
-  video_.emplace(path);
+void FramePictures::Open(const std::string& image) {
+  video_.emplace(dir_ / image);
   next_ = 0;
   is_sought_ = false;
-  if (path == path_ && times_) return;
+  if (image == image_ && times_) return;
   kept_.clear();
-  times_ = std::make_unique<FrameTimes>(path);
-  path_ = path;
+  const auto known = known_times_.find(image);
+  times_ = known != known_times_.end() ? std::make_unique<FrameTimes>(known->second)
+                                       : std::make_unique<FrameTimes>(dir_ / image);
+  image_ = image;
 }
 
 // So that the video gives the frame, or one before it.
@@ -47,10 +49,10 @@ void FramePictures::GoTo(int index) {
       }
       num_seeks_ += is_there ? 1 : 0;
       if (is_there) return;
-      Open(path_);
+      Open(image_);
     }
   }
-  if (index < next_) Open(path_);
+  if (index < next_) Open(image_);
 }
 
 void FramePictures::Keep(int index, const cv::Mat& bgr) {
@@ -73,9 +75,8 @@ bool FramePictures::Decode(int first, int last, const ProgressFn& progress) {
   return next_ > last;
 }
 
-cv::Mat FramePictures::ReadFrame(const std::filesystem::path& path, int index,
-                                 const ProgressFn& progress) {
-  if (path != path_ || !video_) Open(path);
+cv::Mat FramePictures::ReadFrame(const std::string& image, int index, const ProgressFn& progress) {
+  if (image != image_ || !video_) Open(image);
   const int before = std::exchange(last_, index);
   const auto kept = std::ranges::find(kept_, index, &std::pair<int, cv::Mat>::first);
   if (kept != kept_.end()) return kept->second;
@@ -89,10 +90,10 @@ cv::Mat FramePictures::ReadFrame(const std::filesystem::path& path, int index,
   if (Decode(first, index, progress)) return kept_.back().second;
   // OpenCV counts frames by their times after a jump, and may take an earlier one for the last.
   if (is_sought_) {
-    Open(path_);
+    Open(image_);
     if (Decode(index, index, progress)) return kept_.back().second;
   }
-  throw InputError(path, fmt::format("has {} frames, wanted frame {}", next_, index));
+  throw InputError(dir_ / image, fmt::format("has {} frames, wanted frame {}", next_, index));
 }
 
 }  // namespace poselift

@@ -7,6 +7,7 @@
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "src/io/video.h"
@@ -22,8 +23,9 @@ namespace poselift {
 // then from where the video stands, or from its beginning.
 class FramePictures {
  public:
-  // dir: of image paths.
-  explicit FramePictures(std::filesystem::path dir) : dir_(std::move(dir)) {}
+  // dir: of image paths. times: of videos as they are now; the others are read in the background.
+  explicit FramePictures(std::filesystem::path dir, VideoTimes times = {})
+      : dir_(std::move(dir)), known_times_(std::move(times)) {}
 
   // BGR, upright; empty for a frame without a picture. Throws InputError for what cannot be read,
   // and for a frame that the video does not have; what progress throws comes through, and what was
@@ -38,14 +40,15 @@ class FramePictures {
   static constexpr int kNear = 48;  // frames, that are sooner decoded than looked for
   static constexpr int kBack = 12;  // so many are kept when somebody goes back frame by frame
 
-  cv::Mat ReadFrame(const std::filesystem::path& path, int index, const ProgressFn& progress);
-  void Open(const std::filesystem::path& path);
+  cv::Mat ReadFrame(const std::string& image, int index, const ProgressFn& progress);
+  void Open(const std::string& image);
   void GoTo(int index);
   bool Decode(int first, int last, const ProgressFn& progress);
   void Keep(int index, const cv::Mat& bgr);
 
   std::filesystem::path dir_;
-  std::filesystem::path path_;  // of the video that is open
+  VideoTimes known_times_;
+  std::string image_;  // the video that is open
   std::optional<VideoFile> video_;
   int next_ = 0;  // that it gives
   int last_ = 0;  // that was asked for

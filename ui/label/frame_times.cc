@@ -3,12 +3,15 @@
 #include "ui/label/frame_times.h"
 
 #include <exception>
+#include <utility>
 
 #include "src/io/video.h"
 
 namespace poselift {
 
 FrameTimes::FrameTimes(const std::filesystem::path& path) : thread_([this, path] { Run(path); }) {}
+
+FrameTimes::FrameTimes(std::vector<double> times_s) : times_s_(std::move(times_s)) {}
 
 FrameTimes::~FrameTimes() {
   is_ended_ = true;

@@ -4,18 +4,24 @@
 
 #include <atomic>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
 namespace poselift {
+
+// Of the frames of videos that have been read, by their paths as labels have them.
+using VideoTimes = std::map<std::string, std::vector<double>>;
 
 // The times of a video's frames, read in a thread of its own from the beginning on: what there is
 // to know before one can go to any frame and be sure which it is.
 class FrameTimes {
  public:
   explicit FrameTimes(const std::filesystem::path& path);
+  explicit FrameTimes(std::vector<double> times_s);  // read before
   ~FrameTimes();
   FrameTimes(const FrameTimes&) = delete;
   FrameTimes& operator=(const FrameTimes&) = delete;

@@ -2,6 +2,9 @@
 // Copyright (c) 2026 the poselift authors
 #include "ui/label/label_inputs.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "src/input_error.h"
 #include "src/io/atomic_file.h"
 #include "src/io/image.h"
@@ -30,32 +33,35 @@ std::vector<fs::path> PicturesOf(const std::vector<std::string>& inputs) {
   return pictures;
 }
 
-// One of a picture; of a video all that it has.
-void AddFrames(const fs::path& picture, const fs::path& labels_file, Labels* labels) {
-  const fs::path folder = fs::absolute(labels_file).parent_path();
-  FrameLabels frame{.image = fs::absolute(picture).lexically_relative(folder).string()};
-  if (!IsVideoFile(picture)) {
-    const cv::Mat bgr = ReadImage(picture);
-    frame.width_px = bgr.cols;
-    frame.height_px = bgr.rows;
-    labels->frames.push_back(std::move(frame));
-    return;
-  }
-  const cv::Size size_px = VideoFile(picture).size_px();
-  frame.width_px = size_px.width;
-  frame.height_px = size_px.height;
-  frame.frame = 0;
-  for (const double time_s : ReadFrameTimes(picture)) {
-    frame.time_s = time_s;
+// All that the video has.
+std::vector<double> AddFrames(const fs::path& path, FrameLabels frame, Labels* labels,
+                              const ProgressFn& progress) {
+  VideoFile video(path);
+  frame.width_px = video.size_px().width;
+  frame.height_px = video.size_px().height;
+  const auto stated = static_cast<double>(video.stated_frames());
+  std::vector<double> times_s;
+  while (const auto time_s = video.Skip_s()) {
+    frame.frame = static_cast<int>(times_s.size());
+    frame.time_s = *time_s;
     labels->frames.push_back(frame);
-    ++*frame.frame;
+    times_s.push_back(*time_s);
+    progress(stated > 0.0 ? std::min(1.0, static_cast<double>(times_s.size()) / stated) : 0.0);
   }
+  return times_s;
+}
+
+void AddPicture(const fs::path& path, FrameLabels frame, Labels* labels) {
+  const cv::Mat bgr = ReadImage(path);
+  frame.width_px = bgr.cols;
+  frame.height_px = bgr.rows;
+  labels->frames.push_back(std::move(frame));
 }
 
 }  // namespace
 
 fs::path FindLabelsFile(const std::vector<std::string>& inputs, const std::string& labels_file,
-                        const std::string& layout) {
+                        const std::string& layout, const ProgressFn& progress, VideoTimes* times) {
   if (inputs.size() == 1 && fs::path(inputs[0]).extension() == ".json" && labels_file.empty())
     return inputs[0];
   const std::vector<fs::path> pictures = PicturesOf(inputs);
@@ -67,8 +73,22 @@ fs::path FindLabelsFile(const std::vector<std::string>& inputs, const std::strin
                : pictures[0].parent_path() / "labels.json";
   if (fs::exists(file)) return file;
   Labels labels{.layout = layout};
-  for (const fs::path& picture : pictures) AddFrames(picture, file, &labels);
   PrepareFolderOf(file);
+  const fs::path folder = fs::absolute(file).parent_path();
+  for (size_t i = 0; i < pictures.size(); ++i) {
+    const auto so_far = [&](double part) {
+      if (progress)
+        progress((static_cast<double>(i) + part) / static_cast<double>(pictures.size()));
+    };
+    const std::string image = fs::absolute(pictures[i]).lexically_relative(folder).string();
+    if (!IsVideoFile(pictures[i])) {
+      AddPicture(pictures[i], {.image = image}, &labels);
+    } else {
+      auto times_s = AddFrames(pictures[i], {.image = image}, &labels, so_far);
+      if (times) times->insert_or_assign(image, std::move(times_s));
+    }
+    so_far(1.0);
+  }
   CreateLabelsFile(file, labels);
   return file;
 }

@@ -9,7 +9,9 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lift/default_dictionary.h"
@@ -20,12 +22,12 @@
 #include "ui/cli/refuse_options.h"
 #include "ui/cli/tracking_options.h"
 #include "ui/label/key_map.h"
-#include "ui/label/label_inputs.h"
 #include "ui/label/label_project.h"
 #include "ui/label/new_pose.h"
 #include "ui/live/live_inputs.h"
 #include "ui/window/live_window.h"
 #include "ui/window/main_window.h"
+#include "ui/window/opening.h"
 #include "ui/window/welcome.h"
 
 namespace poselift {
@@ -112,10 +114,11 @@ int Watch(const Options& options, const PhotoLifter& lifter, const KeyMap& keys)
 }
 
 int Label(const Options& options, const PhotoLifter& lifter, const KeyMap& keys) {
-  LabelProject project(options.pose.empty()
-                           ? FindLabelsFile(options.inputs, options.labels, options.layout)
-                           : std::filesystem::path(options.pose));
-  MainWindow window(&project, lifter, keys);
+  std::optional<OpenedLabels> opened = OpenedLabels{.file = options.pose, .times = {}};
+  if (options.pose.empty()) opened = OpenLabels(options.inputs, options.labels, options.layout);
+  if (!opened) return 0;
+  LabelProject project(opened->file);
+  MainWindow window(&project, lifter, keys, std::move(opened->times));
   window.show();
   return QApplication::exec();
 }

@@ -16,6 +16,7 @@
 #include <QStatusBar>
 #include <QTimer>
 #include <exception>
+#include <utility>
 
 #include "ui/window/key_list.h"
 #include "ui/window/motion_dock.h"
@@ -38,10 +39,11 @@ double Now_s() { return static_cast<double>(QDateTime::currentMSecsSinceEpoch())
 
 }  // namespace
 
-MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const KeyMap& keys)
+MainWindow::MainWindow(LabelProject* project, const PhotoLifter& lifter, const KeyMap& keys,
+                       VideoTimes times)
     : lifter_(lifter),
       keys_(keys),
-      pictures_(project->dir()),
+      pictures_(project->dir(), std::move(times)),
       reading_(InWindow(&MainWindow::TakePicture)),
       session_(project, lifter, InWindow(&MainWindow::TakeAnswers)) {
   setObjectName("window");

@@ -33,8 +33,9 @@ class MainWindow : public QMainWindow {
   Q_OBJECT
 
  public:
-  // project and lifter must outlive the window.
-  MainWindow(LabelProject* project, const PhotoLifter& lifter, const KeyMap& keys);
+  // project and lifter must outlive the window. times: see FramePictures.
+  MainWindow(LabelProject* project, const PhotoLifter& lifter, const KeyMap& keys,
+             VideoTimes times = {});
 
   LabelSession& session() { return session_; }
   // All of the results of `lift` in a folder, in the background; says when they are there, or what

@@ -192,5 +192,34 @@ TEST(LabelInputs, AVideoBecomesAFrameForEachOfItsFrames) {
   EXPECT_EQ(pictures.Read(frames[7]).cols, frames[7].width_px);
 }
 
+TEST(LabelInputs, TheTimesOfAVideoThatIsReadForItLeadToAnyFrameAtOnce) {
+  const fs::path folder = testing::ScratchDir() / "times";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  const std::string video = (folder / "even.avi").string();
+  testing::WriteVideo(video, MovingTexture(160), 30.0);
+  struct Stopped {};
+  double before = 0.0;
+  const auto stop_halfway = [&](double fraction) {
+    EXPECT_GE(fraction, before);
+    before = fraction;
+    if (fraction >= 0.5) throw Stopped();
+  };
+  EXPECT_THROW(FindLabelsFile({video}, "", "body15", stop_halfway), Stopped);
+  EXPECT_FALSE(fs::exists(folder / "even.labels.json"));
+  VideoTimes times;
+  const fs::path file = FindLabelsFile({video}, "", "body15", {}, &times);
+  const LabelProject project(file);
+  const auto& frames = project.labels().frames;
+  ASSERT_EQ(times.at("even.avi").size(), frames.size());
+  for (size_t f = 0; f < frames.size(); ++f) EXPECT_EQ(times["even.avi"][f], frames[f].time_s);
+  FramePictures pictures(project.dir(), times);
+  EXPECT_TRUE(AreSame(pictures.Read(frames[150]), AllFrames(video)[150]));
+  EXPECT_EQ(pictures.num_seeks(), 1);
+  times.clear();
+  EXPECT_EQ(FindLabelsFile({video}, "", "body15", {}, &times), file);
+  EXPECT_TRUE(times.empty());  // it may be another video by now
+}
+
 }  // namespace
 }  // namespace poselift
