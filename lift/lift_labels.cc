@@ -120,7 +120,37 @@ std::string UnmetHintsMessage(const LiftedPose& lifted, const std::vector<LabelH
   return message;
 }
 
-// As the file has it, at the person's own size where that is known.
+// Bones at the size of a person whose proportions were not looked for.
+PersonBones BonesAtSize(int id, double size, const Skeleton& skeleton) {
+  const Eigen::VectorXd lengths_m = BoneLengths(skeleton);
+  PersonBones bones = BonesOf(AtEqualStature(ProportionPrior(), lengths_m), size * lengths_m);
+  bones.id = id;
+  return bones;
+}
+
+// Of everyone in frames lifted one by one of whom a hint said how tall they are.
+std::vector<PersonBones> BonesOfKnownSize(const LiftedLabels& lifted, const Skeleton& skeleton) {
+  std::vector<PersonBones> bodies;
+  for (size_t f = 0; f < lifted.results.size(); ++f)
+    for (size_t p = 0; p < lifted.results[f].size(); ++p) {
+      const LiftResult& result = lifted.results[f][p];
+      const int id = lifted.poses.frames[f].people[p].id;
+      const bool is_new = std::none_of(bodies.begin(), bodies.end(),
+                                       [&](const PersonBones& body) { return body.id == id; });
+      if (is_new && result.IsUsable() && result.poses.front().size != 1.0)
+        bodies.push_back(BonesAtSize(id, result.poses.front().size, skeleton));
+    }
+  return bodies;
+}
+
+double SizeOf(const LiftedSequence& sequence) {
+  for (const LiftResult& frame : sequence.frames)
+    if (frame.IsUsable()) return frame.poses.front().size;
+  return 1.0;
+}
+
+}  // namespace
+
 PersonPose ToPersonPose(const LiftResult& result, const Observation& observation,
                         const PersonLabels& labels, const Skeleton& skeleton) {
   PersonPose person;
@@ -154,37 +184,6 @@ PersonPose ToPersonPose(const LiftResult& result, const Observation& observation
                                    result.poses[i].cost, result.poses[i].reprojection_rms_px});
   return person;
 }
-
-// Bones at the size of a person whose proportions were not looked for.
-PersonBones BonesAtSize(int id, double size, const Skeleton& skeleton) {
-  const Eigen::VectorXd lengths_m = BoneLengths(skeleton);
-  PersonBones bones = BonesOf(AtEqualStature(ProportionPrior(), lengths_m), size * lengths_m);
-  bones.id = id;
-  return bones;
-}
-
-// Of everyone in frames lifted one by one of whom a hint said how tall they are.
-std::vector<PersonBones> BonesOfKnownSize(const LiftedLabels& lifted, const Skeleton& skeleton) {
-  std::vector<PersonBones> bodies;
-  for (size_t f = 0; f < lifted.results.size(); ++f)
-    for (size_t p = 0; p < lifted.results[f].size(); ++p) {
-      const LiftResult& result = lifted.results[f][p];
-      const int id = lifted.poses.frames[f].people[p].id;
-      const bool is_new = std::none_of(bodies.begin(), bodies.end(),
-                                       [&](const PersonBones& body) { return body.id == id; });
-      if (is_new && result.IsUsable() && result.poses.front().size != 1.0)
-        bodies.push_back(BonesAtSize(id, result.poses.front().size, skeleton));
-    }
-  return bodies;
-}
-
-double SizeOf(const LiftedSequence& sequence) {
-  for (const LiftResult& frame : sequence.frames)
-    if (frame.IsUsable()) return frame.poses.front().size;
-  return 1.0;
-}
-
-}  // namespace
 
 LiftedLabels LiftLabels(const PhotoLifter& lifter, const Labels& labels,
                         const std::optional<Camera>& camera, const ProgressFn& progress) {
@@ -293,6 +292,7 @@ Motion ToMotion(const LiftedLabels& lifted, const Skeleton& skeleton, double fra
 
 Motion ToMotionOverTime(const LiftedLabels& lifted, const Skeleton& skeleton,
                         const ProgressFn& progress) {
+  if (lifted.key_frame_time_s) return ToMotion(lifted, skeleton, *lifted.key_frame_time_s);
   PosesMotion placed = PosesToMotion(lifted.poses, skeleton, {.with_filled = true}, progress);
   std::vector<SkeletonPose>& frames = placed.motion.frames;
   for (size_t t = 0; t < frames.size(); ++t) {

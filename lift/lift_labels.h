@@ -19,7 +19,13 @@ namespace poselift {
 struct LiftedLabels {
   Poses poses;                                   // frame by frame as in the labels
   std::vector<std::vector<LiftResult>> results;  // [frame][person]
+  // Of key frames and what lies between (key_frames.h), evenly in time and without a camera.
+  std::optional<double> key_frame_time_s = {};
 };
+
+// A person as poses.json has it, at their own size where that is known. observation: of labels.
+PersonPose ToPersonPose(const LiftResult& result, const Observation& observation,
+                        const PersonLabels& labels, const Skeleton& skeleton);
 
 // camera: when known, labels are freed of its lens distortion first.
 LiftedLabels LiftLabels(const PhotoLifter& lifter, const Labels& labels,
@@ -36,7 +42,8 @@ LiftedLabels LiftLabelsOverTime(const SequenceLifter& lifter, const Skeleton& sk
 
 // The first person as one motion, filled frames too: where the picture or the
 // known camera has them (PosesToMotion), floor and all. A frame of which nothing
-// is known keeps the pose before it. Throws InputError when nobody was lifted.
+// is known keeps the pose before it. Of key frames, which no camera sees: ToMotion. Throws
+// InputError when nobody was lifted.
 Motion ToMotionOverTime(const LiftedLabels& lifted, const Skeleton& skeleton,
                         const ProgressFn& progress = {});
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <ranges>
 
+#include "lift/key_frames.h"
 #include "src/input_error.h"
 #include "src/io/angles_csv.h"
 #include "src/io/motion_file.h"
@@ -42,6 +43,8 @@ double FrameTime_s(const Labels& labels, double fps) {
 
 std::string WhyFramesAlone(const Labels& labels) {
   const auto& frames = labels.frames;
+  if (AreKeyFrames(labels))
+    return frames.size() > 1 ? "" : "found one key frame, wanted at least 2 to make a motion of";
   if (frames.size() <= 2)
     return fmt::format("found {} frames, wanted at least 3 to make a motion of", frames.size());
   const auto untimed = std::ranges::find_if(
@@ -66,7 +69,8 @@ void WriteLifted(const LiftedLabels& lifted, const Labels& labels, const Skeleto
   if (progress) progress(1.0);
   WritePosesJson(lifted.poses, folder / "poses.json");
   WriteAnglesCsv(lifted.poses, folder / "angles.csv");
-  if (is_motion) WriteAnglesSigmaCsv(lifted.poses, folder / "angles_sigma.csv");
+  if (is_motion && !lifted.key_frame_time_s)
+    WriteAnglesSigmaCsv(lifted.poses, folder / "angles_sigma.csv");
   if (motion.frames.empty()) return;
   WriteMotion(motion, folder / "poses.bvh");
   WriteMotion(motion, folder / "poses.amc");

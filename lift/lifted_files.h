@@ -18,14 +18,14 @@ namespace poselift {
 double FrameTime_s(const Labels& labels, double fps);
 
 // Why each frame is lifted by itself, in words; empty when the frames are those of one motion: more
-// than two, all with times, no longer apart than SequenceLifter::kLongestFrameTime_s. Times that do
-// not grow are found by the lifter.
+// than two, all with times, no longer apart than SequenceLifter::kLongestFrameTime_s; or key frames
+// (key_frames.h). Times that do not grow are found by the lifter.
 std::string WhyFramesAlone(const Labels& labels);
 
 // What `lift` leaves in a folder, but pictures: poses.json, angles.csv, of one motion
-// angles_sigma.csv, and of the first person poses.bvh, poses.amc and poses.asf, unless nobody was
-// lifted. Throws InputError when a file cannot be written; before the first one is, what progress
-// throws.
+// angles_sigma.csv, unless of key frames, and of the first person poses.bvh, poses.amc and
+// poses.asf, unless nobody was lifted. Throws InputError when a file cannot be written; before the
+// first one is, what progress throws.
 void WriteLifted(const LiftedLabels& lifted, const Labels& labels, const Skeleton& skeleton,
                  bool is_motion, double fps, const std::filesystem::path& folder,
                  const ProgressFn& progress = {});

@@ -14,6 +14,7 @@
 #include "lift/body_proportions.h"
 #include "lift/default_dictionary.h"
 #include "lift/dictionary_file.h"
+#include "lift/key_frames.h"
 #include "lift/lift_labels.h"
 #include "lift/lift_sequence.h"
 #include "lift/lifted_files.h"
@@ -72,13 +73,19 @@ bool AreOneMotion(const Labels& labels, const Options& options) {
 }
 
 void SetTimes(double fps, Labels* labels) {
-  for (size_t f = 0; f < labels->frames.size(); ++f)
-    if (!labels->frames[f].time_s) labels->frames[f].time_s = static_cast<double>(f) / fps;
+  const bool are_keys = AreKeyFrames(*labels);
+  for (size_t f = 0; f < labels->frames.size(); ++f) {
+    FrameLabels& frame = labels->frames[f];
+    if (frame.time_s) continue;
+    frame.time_s = static_cast<double>(f) / fps;
+    if (are_keys) frame.frame = static_cast<int>(f);
+  }
 }
 
 LiftedLabels LiftMotion(const PhotoLifter& lifter, const Labels& labels,
                         const std::optional<Camera>& camera, const Options& options,
                         const ProgressFn& progress) {
+  if (AreKeyFrames(labels)) return LiftKeyFrames(lifter, labels, progress);
   const MotionCodebook codebook = WithMirrored(ReadMotionCodebook(
       options.motion_model.empty() ? DefaultMotionModelPath() : fs::path(options.motion_model)));
   LiftSequenceOptions sequence;

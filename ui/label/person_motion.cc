@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "lift/default_dictionary.h"
+#include "lift/key_frames.h"
 #include "lift/lift_sequence.h"
 #include "lift/lifted_files.h"
 #include "lift/poses_to_motion.h"
@@ -93,10 +94,11 @@ double PersonMotion::Sigma_deg(size_t frame) const {
 }
 
 Labels OnlyPerson(const Labels& labels, int person_id) {
+  const bool are_keys = AreKeyFrames(labels);  // whose pins say enough
   Labels alone = labels;
   for (FrameLabels& frame : alone.frames)
     std::erase_if(frame.people, [&](const PersonLabels& other) {
-      return other.id != person_id || other.landmarks.empty();
+      return other.id != person_id || (other.landmarks.empty() && !are_keys);
     });
   return WithPeopleBetween(alone);
 }
@@ -107,6 +109,7 @@ std::vector<std::uint64_t> LabelMarks(const Labels& labels, int person_id) {
   for (const FrameLabels& frame : labels.frames) {
     Mark mark;
     mark.Add(frame.time_s.value_or(-1.0));
+    mark.Add(frame.frame.value_or(-1));
     for (const PersonLabels& person : frame.people)
       if (person.id == person_id) AddPerson(person, &mark);
     marks.push_back(mark.value());
@@ -117,6 +120,7 @@ std::vector<std::uint64_t> LabelMarks(const Labels& labels, int person_id) {
 LiftedLabels LiftAsMotion(const PhotoLifter& lifter, const Labels& labels,
                           const ProgressFn& progress) {
   if (const std::string why = WhyFramesAlone(labels); !why.empty()) throw InputError(why);
+  if (AreKeyFrames(labels)) return LiftKeyFrames(lifter, labels, progress);
   const MotionCodebook codebook = WithMirrored(ReadMotionCodebook(DefaultMotionModelPath()));
   return LiftLabelsOverTime(SequenceLifter(lifter, codebook), lifter.dictionary().skeleton,
                             WithPeopleBetween(labels), std::nullopt, progress);
