@@ -51,11 +51,27 @@ void AppendMap(std::string_view key, const Map& map, AppendValue append, std::st
   *out += "}";
 }
 
+// {"time_s": 0.5, "frame": 15}, without what is not known.
+void AppendTime(const FrameTime& time, std::string* out) {
+  const std::string time_s = time.time_s ? fmt::format("\"time_s\": {}", *time.time_s) : "";
+  const std::string frame = time.frame ? fmt::format("\"frame\": {}", *time.frame) : "";
+  *out += "{" + time_s + (time.time_s && time.frame ? ", " : "") + frame + "}";
+}
+
+FrameTime ReadTime(const JsonValue& json) {
+  FrameTime time;
+  if (const JsonValue* time_s = json.Find("time_s"))
+    time.time_s = time_s->Number(-kLargestTime_s, kLargestTime_s);
+  if (const JsonValue* frame = json.Find("frame")) time.frame = frame->Integer(0, kMostFrames);
+  return time;
+}
+
 void AppendMaps(const LabelEdit& edit, std::string* out) {
   AppendMap("people", edit.people, AppendNativePeople, out);
   AppendMap(
       "images", edit.images,
       [](const std::string& image, std::string* to) { AppendJsonString(image, to); }, out);
+  AppendMap("times", edit.times, AppendTime, out);
 }
 
 template <typename Value, typename ReadValue>
@@ -87,6 +103,7 @@ void ReadMaps(const JsonValue& json, const Layout& layout, LabelEdit* edit) {
       [&](const JsonValue& people) { return ReadNativePeople(people, layout); }, &edit->people);
   ReadMap(
       json.Find("images"), [](const JsonValue& image) { return image.String(); }, &edit->images);
+  ReadMap(json.Find("times"), ReadTime, &edit->times);
   if (const JsonValue* added = json.Find("added"))
     for (const JsonValue& frame : added->Items())
       edit->added.push_back(ReadNativeFrame(frame, layout));

@@ -24,8 +24,10 @@ FileStamp StampOf(std::string_view bytes);
 // A line of a journal (LabelJournal): JSON, and a line break at its end.
 //   {"format": "poselift-journal", "version": 1, "file": {"size": 812, "hash": "90f3..."}}
 //   {"step": "edit", "name": "place nose", "people": {"3": [PERSON, ...]},
-//    "images": {"3": "a.jpg"}, "dropped": 1, "added": [FRAME, ...], "merge": "...",
-//    "before": {"people": {"3": [PERSON, ...]}, "images": {"3": "b.jpg"}, "added": [FRAME]}}
+//    "images": {"3": "a.jpg"}, "times": {"3": {"time_s": 0.5, "frame": 15}}, "dropped": 1,
+//    "added": [FRAME, ...], "merge": "...",
+//    "before": {"people": {"3": [PERSON, ...]}, "images": {"3": "b.jpg"}, "times": {"3": {}},
+//               "added": [FRAME]}}
 //   {"step": "undo"}                 {"step": "redo"}
 //   {"step": "saving", "file": ...}  the labels as they are here are about to be the file's
 //   {"step": "saved", "file": ...}   they are

@@ -106,13 +106,6 @@ const Layout& LayoutOf(const Labels& labels) {
   throw std::invalid_argument("no layout " + labels.layout);
 }
 
-// Frames that differ in nothing but their people.
-void CheckKeyFrames(const Labels& labels) {
-  if (std::any_of(labels.frames.begin(), labels.frames.end(),
-                  [](const FrameLabels& frame) { return !frame.image.empty() || frame.time_s; }))
-    throw std::invalid_argument("pictures have no key frames: poses without pictures do");
-}
-
 LabelEdit TransformPerson(const Labels& labels, PersonRef ref, const Eigen::Affine2d& new_from_old,
                           double radius_factor, std::string_view verb) {
   PersonLabels person = PersonAt(labels, ref);
@@ -294,28 +287,6 @@ Eigen::Vector2d PersonCenter(const PersonLabels& person) {
   }
   if (all_px.isEmpty()) return Eigen::Vector2d::Zero();
   return seen_px.isEmpty() ? all_px.center() : seen_px.center();
-}
-
-LabelEdit AddKeyFrame(const Labels& labels, size_t frame) {
-  CheckKeyFrames(labels);
-  LabelEdit edit;
-  edit.name = fmt::format("add key frame {}", frame + 2);
-  for (size_t f = frame + 1; f < labels.frames.size(); ++f)
-    edit.people[f] = labels.frames[f - 1].people;
-  edit.added = {labels.frames.at(frame)};
-  edit.added[0].people = labels.frames.back().people;
-  return edit;
-}
-
-LabelEdit RemoveKeyFrame(const Labels& labels, size_t frame) {
-  CheckKeyFrames(labels);
-  if (labels.frames.size() < 2) throw std::invalid_argument("the last key frame stays");
-  LabelEdit edit;
-  edit.name = fmt::format("remove key frame {}", frame + 1);
-  for (size_t f = frame; f + 1 < labels.frames.size(); ++f)
-    edit.people[f] = labels.frames.at(f + 1).people;
-  edit.dropped = 1;
-  return edit;
 }
 
 LabelEdit CopyPerson(const Labels& labels, PersonRef from, size_t to_frame) {

@@ -85,12 +85,6 @@ LabelEdit ScalePerson(const Labels& labels, PersonRef ref, double factor);
 // The middle of the box around what is not absent; around all when everything is.
 Eigen::Vector2d PersonCenter(const PersonLabels& person);
 
-// Frames of poses without pictures; std::invalid_argument where there are some. The new one is
-// behind the frame and as it is; of the last one there is no removing. "add key frame 3",
-// "remove key frame 3"
-LabelEdit AddKeyFrame(const Labels& labels, size_t frame);
-LabelEdit RemoveKeyFrame(const Labels& labels, size_t frame);
-
 // The person of the other frame, with states, radii and hints, into this frame, in the place of the
 // one with the same id. "copy person 1 from frame 4" (counted from 1, as people do)
 LabelEdit CopyPerson(const Labels& labels, PersonRef from, size_t to_frame);

@@ -50,16 +50,20 @@ void CheckPeople(const std::vector<PersonLabels>& people, const Layout& layout) 
   }
 }
 
+void CheckTime(const FrameTime& time) {
+  if (time.time_s && !(std::abs(*time.time_s) <= kLargestTime_s))
+    throw InputError(fmt::format("found the time {:g} s, wanted one of a video", *time.time_s));
+  if (time.frame && *time.frame < 0)
+    throw InputError(fmt::format("found the frame {}, wanted 0 or more", *time.frame));
+}
+
 void CheckFrame(const FrameLabels& frame, const Layout& layout) {
   const auto within = [](int size_px) { return size_px >= 0 && size_px <= kLargestPicture_px; };
   if (!within(frame.width_px) || !within(frame.height_px) ||
       (frame.width_px > 0) != (frame.height_px > 0))
     throw InputError(fmt::format("found a picture of {} x {} px, wanted a size up to {} or 0 x 0",
                                  frame.width_px, frame.height_px, kLargestPicture_px));
-  if (frame.time_s && !(std::abs(*frame.time_s) <= kLargestTime_s))
-    throw InputError(fmt::format("found the time {:g} s, wanted one of a video", *frame.time_s));
-  if (frame.frame && *frame.frame < 0)
-    throw InputError(fmt::format("found the frame {}, wanted 0 or more", *frame.frame));
+  CheckTime(TimeOf(frame));
   CheckPeople(frame.people, layout);
 }
 
@@ -78,6 +82,8 @@ bool HaveEqualKeys(const Map& a, const Map& b) {
 
 }  // namespace
 
+FrameTime TimeOf(const FrameLabels& frame) { return {frame.time_s, frame.frame}; }
+
 void CheckEdit(const Labels& labels, const LabelEdit& edit) {
   const Layout* const layout = FindLayout(labels.layout);
   if (!layout) throw InputError(fmt::format("found no layout \"{}\"", labels.layout));
@@ -87,6 +93,8 @@ void CheckEdit(const Labels& labels, const LabelEdit& edit) {
   const size_t num_kept = labels.frames.size() - edit.dropped;
   CheckFrameNumbers(edit.people, num_kept);
   CheckFrameNumbers(edit.images, num_kept);
+  CheckFrameNumbers(edit.times, num_kept);
+  for (const auto& [frame, time] : edit.times) CheckTime(time);
   for (const auto& [frame, people] : edit.people) CheckPeople(people, *layout);
   for (const FrameLabels& frame : edit.added) CheckFrame(frame, *layout);
 }
@@ -94,6 +102,10 @@ void CheckEdit(const Labels& labels, const LabelEdit& edit) {
 void ApplyEdit(const LabelEdit& edit, Labels* labels) {
   for (const auto& [frame, people] : edit.people) labels->frames[frame].people = people;
   for (const auto& [frame, image] : edit.images) labels->frames[frame].image = image;
+  for (const auto& [frame, time] : edit.times) {
+    labels->frames[frame].time_s = time.time_s;
+    labels->frames[frame].frame = time.frame;
+  }
   labels->frames.resize(labels->frames.size() - edit.dropped);
   labels->frames.insert(labels->frames.end(), edit.added.begin(), edit.added.end());
 }
@@ -103,6 +115,7 @@ LabelEdit WayBack(const Labels& labels, const LabelEdit& edit) {
   for (const auto& [frame, people] : edit.people)
     before.people[frame] = labels.frames[frame].people;
   for (const auto& [frame, image] : edit.images) before.images[frame] = labels.frames[frame].image;
+  for (const auto& [frame, time] : edit.times) before.times[frame] = TimeOf(labels.frames[frame]);
   before.added.assign(labels.frames.end() - static_cast<std::ptrdiff_t>(edit.dropped),
                       labels.frames.end());
   return before;
@@ -123,7 +136,7 @@ bool LabelSteps::MergesWithLast(const LabelEdit& edit) const {
   const LabelEdit& last = all_[applied_ - 1].edit;
   return last.merge_key == edit.merge_key && last.added.empty() && edit.added.empty() &&
          last.dropped == 0 && edit.dropped == 0 && HaveEqualKeys(last.people, edit.people) &&
-         HaveEqualKeys(last.images, edit.images);
+         HaveEqualKeys(last.images, edit.images) && HaveEqualKeys(last.times, edit.times);
 }
 
 void LabelSteps::Push(LabelEdit edit, LabelEdit before) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,15 @@
 #include "src/labels.h"
 
 namespace poselift {
+
+// When a frame is (FrameLabels), all of it.
+struct FrameTime {
+  std::optional<double> time_s;
+  std::optional<int> frame;
+
+  bool operator==(const FrameTime&) const = default;
+};
+FrameTime TimeOf(const FrameLabels& frame);
 
 // A change of labels, said by what is there afterwards. One edit may touch many frames:
 // labels carried through a video are one step back.
@@ -23,13 +33,15 @@ struct LabelEdit {
   // landmark. Empty: a step of its own. An edit that adds or drops frames is always one.
   std::string merge_key = {};
   size_t dropped = 0;  // so many of the last frames go, before any are added
+  std::map<size_t, FrameTime> times = {};
 
   bool ChangesNothing() const {
-    return people.empty() && images.empty() && added.empty() && dropped == 0;
+    return people.empty() && images.empty() && times.empty() && added.empty() && dropped == 0;
   }
 };
 
-// An edit and its way back: people and images as they were, and the frames that were dropped.
+// An edit and its way back: people, images and times as they were, and the frames that were
+// dropped.
 struct LabelStep {
   LabelEdit edit;
   LabelEdit before;         // without name, merge_key and dropped

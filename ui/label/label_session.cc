@@ -36,6 +36,7 @@ LabelSession::LabelSession(LabelProject* project, const PhotoLifter& lifter,
   if (!layout_) throw InputError("found labels without a layout, wanted one, such as body15");
   handles_ = PoseHandles(*layout_);
   GoToFrame(0);
+  LabelsChanged();
 }
 
 const LandmarkLabel* LabelSession::Find(const PersonLabels& person, std::string_view landmark) {
@@ -144,6 +145,7 @@ void LabelSession::GoToFrame(size_t index) {
   if (labels().frames.empty()) return;
   drag_.reset();
   hovered_.reset();
+  between_.reset();
   frame_index_ = std::min(index, labels().frames.size() - 1);
   person_index_ =
       std::min(person_index_, std::max<size_t>(labels().frames[frame_index_].people.size(), 1) - 1);
@@ -187,6 +189,7 @@ void LabelSession::Apply(LabelEdit edit) {
   try {
     if (!project_->Apply(std::move(edit))) return;
     frame_index_ = std::min(frame_index_, labels().frames.size() - 1);  // it may be one that went
+    LabelsChanged();
     Ask();
   } catch (const InputError& error) {  // of what labels cannot hold, or of others who hold them
     notice_ = error.what();
@@ -273,8 +276,12 @@ std::string LabelSession::Status() const {
     return fmt::format("click the joint that is farther from the camera than {}",
                        InWords(layout_->landmarks[static_cast<size_t>(*nearer_)].name));
   if (hovered_ && pose()) return HandleStatus(*hovered_);
+  if (IsBetween()) return KeyStatus();
   std::string status =
-      fmt::format("click: {}", InWords(layout_->landmarks[static_cast<size_t>(landmark_)].name));
+      HasKeyFrames()
+          ? KeyStatus()
+          : fmt::format("click: {}",
+                        InWords(layout_->landmarks[static_cast<size_t>(landmark_)].name));
   if (ShowsMotion())
     status += fmt::format("   motion{}, {}", IsMotionCurrent() ? "" : " (out of date)",
                           motion_->is_filled[frame_index_]

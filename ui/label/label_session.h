@@ -18,6 +18,7 @@
 #include "src/labels.h"
 #include "src/layout.h"
 #include "ui/label/background_job.h"
+#include "ui/label/key_edits.h"
 #include "ui/label/key_map.h"
 #include "ui/label/key_repeat.h"
 #include "ui/label/label_edits.h"
@@ -25,6 +26,7 @@
 #include "ui/label/label_project.h"
 #include "ui/label/person_motion.h"
 #include "ui/label/picture_hit.h"
+#include "ui/label/playback.h"
 #include "ui/label/pose_drag.h"
 #include "ui/label/pose_handles.h"
 #include "ui/label/pose_solver.h"
@@ -89,6 +91,21 @@ class LabelSession {
   void TurnPersonBy(double angle_rad);  // clockwise
   void ScalePersonBy(double factor);
 
+  // Key frames, poses without pictures (lift/key_frames.h): the motion through them is made anew
+  // after each change, and between them, at a number of its frames, there is that to be seen.
+  bool HasKeyFrames() const { return AreKeyFrames(labels()); }
+  KeyTimes Keys() const;
+  int Number() const;  // that is shown
+  bool IsBetween() const { return between_.has_value(); }
+  void GoToNumber(int number);  // the key frame there, or the last one before is at hand
+  void MoveKey(size_t key, int number, Along along);
+  void ChangeRate(double fps);
+  // Frames of the motion: those of the labels, or of key frames all from the first to the last.
+  size_t NumMotionFrames() const;
+  size_t MotionFrame() const;  // that is shown
+  void GoToMotionFrame(size_t frame);
+  Playback PlaybackFrom(size_t motion_frame) const;
+
   // While labels are followed through a video: how far that is.
   std::optional<double> FollowProgress() const;
   // What goes on in the background that Action::kStop ends, in words; empty when nothing does.
@@ -120,7 +137,7 @@ class LabelSession {
   void StopMotion() { motion_job_.Stop(); }
   void WaitUntilSmoothed();
   // To a frame that is not stayed at: not lifted by itself where the motion is shown.
-  void PlayTo(size_t frame);
+  void PlayTo(size_t motion_frame);
 
   // Both in the background, of the labels as they are now. Throws InputError while another export
   // goes on. Lifts all frames, as a motion where they are one (WhyFramesAlone), and leaves in a
@@ -162,7 +179,11 @@ class LabelSession {
   void Stop();
   void StartExport(BackgroundJob<std::filesystem::path>::Work work);
   bool DoPose(Action action);
-  void ChangeFrames(bool adds);
+  bool DoKeys(Action action);
+  void AddKey();
+  std::vector<PersonLabels> PeopleHere() const;
+  std::string KeyStatus() const;
+  void LabelsChanged();
   bool HasLabelsInForce() const { return observation_.Count(ObservedPoint::Kind::k2D) > 0; }
   std::optional<size_t> HandleAtHand() const;
   std::string HandleStatus(size_t handle) const;
@@ -203,6 +224,8 @@ class LabelSession {
   mutable std::vector<std::uint64_t> marks_;  // LabelMarks of the labels' state and person
   mutable std::pair<std::uint64_t, int> marks_of_;
   bool is_playing_ = false;
+  double key_fps_ = KeyTimes::kFps;
+  std::optional<int> between_;  // the number of a frame that is no key frame, or is played
 
   std::mutex mutex_;
   std::optional<std::pair<uint64_t, LiftResult>> waiting_;  // guarded by mutex_

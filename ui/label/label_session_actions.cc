@@ -32,7 +32,8 @@ bool LabelSession::Do(Action action) {
   notice_.clear();
   nearer_.reset();
   return DoMotion(action) || DoGo(action) || DoOnLandmark(action) || DoOnPerson(action) ||
-         DoHint(action) || DoFlow(action) || DoPose(action) || DoOnProject(action);
+         DoHint(action) || DoFlow(action) || DoPose(action) || DoKeys(action) ||
+         DoOnProject(action);
 }
 
 bool LabelSession::DoGo(Action action) {
@@ -45,7 +46,8 @@ bool LabelSession::DoGo(Action action) {
                                  Jump{Action::kForward100, 100}, Jump{Action::kBack100, -100}};
   if (const auto* const jump = std::ranges::find(kJumps, action, &Jump::action);
       jump != kJumps.end()) {
-    const auto to = static_cast<std::ptrdiff_t>(frame_index_) + jump->by;
+    const bool is_behind_it = between_ && jump->by < 0;  // the one at hand is the one before
+    const auto to = static_cast<std::ptrdiff_t>(frame_index_) + jump->by + (is_behind_it ? 1 : 0);
     GoToFrame(static_cast<size_t>(std::max<std::ptrdiff_t>(to, 0)));
     return true;
   }
@@ -157,6 +159,7 @@ bool LabelSession::DoOnProject(Action action) {
       if (labels().frames.empty()) return true;
       if (frame_index_ >= labels().frames.size()) GoToFrame(frame_index_);  // it is no more there
       person_index_ = std::min(person_index_, labels().frames[frame_index_].people.size());
+      LabelsChanged();
       Ask();
       return true;
     default:

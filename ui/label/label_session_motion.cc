@@ -77,6 +77,8 @@ bool LabelSession::IsMotionCurrent() const {
 const LiftedPose* LabelSession::MotionPose() const {
   if (!motion_ || (drag_ && drag_->edit)) return nullptr;
   if (HasPerson() && Ref().id != motion_->person_id) return nullptr;
+  if (HasKeyFrames())
+    return IsBetween() && IsMotionCurrent() ? motion_->PoseOf(MotionFrame()) : nullptr;
   const auto& marks = MarksOfMotion();
   if (frame_index_ >= motion_->label_marks.size() ||
       marks[frame_index_] != motion_->label_marks[frame_index_])
@@ -92,9 +94,9 @@ const Observation& LabelSession::observation() const {
   return ShowsMotion() ? asked_observation_ : observation_;
 }
 
-void LabelSession::PlayTo(size_t frame) {
+void LabelSession::PlayTo(size_t motion_frame) {
   is_playing_ = true;
-  GoToFrame(frame);
+  GoToMotionFrame(motion_frame);
   is_playing_ = false;
 }
 

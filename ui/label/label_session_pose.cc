@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "ui/label/label_edits.h"
 #include "ui/label/label_session.h"
@@ -18,7 +17,7 @@ void LabelSession::Hover(std::optional<size_t> handle) {
 }
 
 bool LabelSession::PressHandle(size_t handle, PoseDrag::Way way) {
-  if (!pose() || !HasPerson()) return false;
+  if (!pose() || !HasPerson() || IsBetween()) return false;
   notice_.clear();
   nearer_.reset();
   const PoseHandle& pressed = handles_[handle];
@@ -51,7 +50,7 @@ void LabelSession::MoveHandle(const Eigen::Vector3d& to_in_cam_m) {
 }
 
 void LabelSession::TogglePin(size_t handle) {
-  if (!pose() || !HasPerson() || drag_) return;
+  if (!pose() || !HasPerson() || drag_ || IsBetween()) return;
   const PoseHandle& toggled = handles_[handle];
   if (toggled.joint == joint::kPelvis) {
     notice_ = "pins are counted from the pelvis: pin a foot or a hand";
@@ -105,24 +104,8 @@ bool LabelSession::DoPose(Action action) {
       else
         notice_ = "this landmark cannot be pinned: choose a joint of the 3D pose";
       return true;
-    case Action::kAddKeyFrame:
-    case Action::kRemoveFrame:
-      ChangeFrames(action == Action::kAddKeyFrame);
-      return true;
     default:
       return false;
-  }
-}
-
-void LabelSession::ChangeFrames(bool adds) {
-  try {
-    LabelEdit edit =
-        adds ? AddKeyFrame(labels(), frame_index_) : RemoveKeyFrame(labels(), frame_index_);
-    const size_t before = labels().frames.size();
-    Apply(std::move(edit));
-    if (labels().frames.size() != before) GoToFrame(adds ? frame_index_ + 1 : frame_index_);
-  } catch (const std::invalid_argument& error) {
-    notice_ = error.what();
   }
 }
 

@@ -43,7 +43,7 @@ Labels NewPose(const Layout& layout, const Skeleton& skeleton) {
   const Pose3 in_cam_m = kLevelFromCam.toRotationMatrix() * StandingInBody_m(skeleton);
   PersonLabels person;
   person.hints = SoftPins(PoseHandles(layout), {}, in_cam_m, 1.0);
-  FrameLabels frame{.width_px = kSide_px, .height_px = kSide_px};
+  FrameLabels frame{.width_px = kSide_px, .height_px = kSide_px, .time_s = 0.0, .frame = 0};
   frame.people.push_back(std::move(person));
   return {std::string(layout.name), {std::move(frame)}};
 }

@@ -11,8 +11,8 @@
 
 namespace poselift {
 
-// A frame without a picture and a person in it who stands, facing the camera, with the arms down:
-// all joints pinned softly, for posing from nothing.
+// A key frame at 0, without a picture, and a person in it who stands, facing the camera, with the
+// arms down: all joints pinned softly, for posing from nothing.
 Labels NewPose(const Layout& layout, const Skeleton& skeleton);
 
 // Makes a labels file of it where there is none yet. Throws InputError when it cannot be written,

@@ -20,6 +20,12 @@ Playback::Playback(const Labels& labels, size_t from) : from_(from), since_s_{0.
   }
 }
 
+Playback::Playback(size_t num_frames, double frame_time_s, size_t from)
+    : from_(from), since_s_{0.0} {
+  for (size_t f = from + 1; f < num_frames; ++f)
+    since_s_.push_back(static_cast<double>(f - from) * frame_time_s);
+}
+
 size_t Playback::FrameAt(double elapsed_s) const {
   const auto after = std::ranges::upper_bound(since_s_, elapsed_s);
   const auto count = after - since_s_.begin();
