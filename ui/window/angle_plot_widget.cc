@@ -75,8 +75,10 @@ void AnglePlotWidget::paintEvent(QPaintEvent* /*event*/) {
     painter.setPen(Qt::black);
     painter.drawText(rect().adjusted(8, 8, -8, -8), Qt::AlignCenter | Qt::TextWordWrap,
                      motion ? QString::fromStdString(motion->message)
-                            : tr("No motion yet: smoothing lifts all pictures of the person "
-                                 "together, and shows their angles here"));
+                     : session_->HasKeyFrames()
+                         ? tr("No motion yet: two key frames make one, and its angles are here")
+                         : tr("No motion yet: smoothing lifts all pictures of the person "
+                              "together, and shows their angles here"));
     return;
   }
   if (curves_.size() != size() * devicePixelRatioF() || painted_number_ != motion->number ||
@@ -84,7 +86,7 @@ void AnglePlotWidget::paintEvent(QPaintEvent* /*event*/) {
     PaintAll();
   painter.drawPixmap(0, 0, curves_);
   painter.setRenderHint(QPainter::Antialiasing);
-  const auto frame = static_cast<Eigen::Index>(session_->frame_index());
+  const auto frame = static_cast<Eigen::Index>(session_->MotionFrame());
   PaintLegend(&painter, *motion, frame);
   if (frame >= motion->times_s.size()) return;
   const double x = X(motion->times_s[frame]);
@@ -204,10 +206,11 @@ void AnglePlotWidget::PaintLegend(QPainter* painter, const PersonMotion& motion,
     painter->fillRect(QRectF(left, top + row / 2.0 - 2.0, kSample, 4.0),
                       QColor(CurveColor(static_cast<int>(i))));
     QString text = QString::fromStdString(JointAngles()[static_cast<size_t>(angles_[i])].name);
-    if (frame < motion.angles_deg.cols() && std::isfinite(motion.angles_deg(angles_[i], frame)))
-      text += tr(": %1° ± %2°")
-                  .arg(motion.angles_deg(angles_[i], frame), 0, 'f', 1)
-                  .arg(motion.angles_sigma_deg(angles_[i], frame), 0, 'f', 1);
+    if (frame < motion.angles_deg.cols() && std::isfinite(motion.angles_deg(angles_[i], frame))) {
+      text += tr(": %1°").arg(motion.angles_deg(angles_[i], frame), 0, 'f', 1);
+      const double sigma_deg = motion.angles_sigma_deg(angles_[i], frame);
+      if (std::isfinite(sigma_deg)) text += tr(" ± %1°").arg(sigma_deg, 0, 'f', 1);
+    }
     painter->setPen(Grey(palette::kInk));
     painter->drawText(QRectF(left + kSample + 6.0, top, kLegend - kSample - 18.0, row),
                       Qt::AlignLeft | Qt::AlignVCenter, text);

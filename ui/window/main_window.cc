@@ -18,6 +18,7 @@
 #include <exception>
 #include <utility>
 
+#include "ui/window/key_frames_box.h"
 #include "ui/window/key_list.h"
 #include "ui/window/motion_dock.h"
 #include "ui/window/picture_canvas.h"
@@ -138,10 +139,11 @@ void MainWindow::AddMenus() {
       {tr("&Go"),
        {kNextJoint, kPreviousJoint, kNextFrame, kPreviousFrame, kForward10, kBack10, kForward100,
         kBack100, kFirstFrame, kLastFrame, kNextUnlabelled, kNextLabelled, kPreviousLabelled,
-        kSuggested, kPlay}},
+        kSuggested, kStepBack, kStepForward, kPlay}},
       {tr("&Pose"),
        {kNextPose, kKeepPose, kFlipLimb, kTowardsCamera, kAwayFromCamera, kNearer, kOnFloor,
-        kForgetHints, kPinJoint, kAddKeyFrame, kRemoveFrame, kSmoothMotion, kShowMotion}},
+        kForgetHints, kPinJoint, kAddKeyFrame, kRemoveFrame, kKeyEarlier, kKeyLater, kSmoothMotion,
+        kShowMotion}},
       {tr("&View"),
        {kZoomIn, kZoomOut, kFit, kFullSize, kZoomToBox, kMirrorView, kToggleLoupe, kToggleLabels,
         kToggleEdges, kToggleSkeleton}},
@@ -279,6 +281,7 @@ void MainWindow::Refresh() {
   picture_->update();
   pose_->update();
   timeline_->update();
+  if (key_frames_) key_frames_->Refresh();
   motion_->Refresh();
 }
 

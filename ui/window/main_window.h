@@ -21,6 +21,7 @@ class QSlider;
 
 namespace poselift {
 
+class KeyFramesBox;
 class MotionDock;
 class PictureCanvas;
 class Player;
@@ -57,6 +58,7 @@ class MainWindow : public QMainWindow {
   void AddMenus();
   void AddJoints();
   void AddFrames();
+  void AddKeyFrames(QWidget* box);
   void AddHints();
   void AddLook();
   void AddMotion();
@@ -96,6 +98,7 @@ class MainWindow : public QMainWindow {
   QListWidget *joints_ = nullptr, *hints_ = nullptr;
   QSlider* frames_ = nullptr;
   Timeline* timeline_ = nullptr;
+  KeyFramesBox* key_frames_ = nullptr;  // instead of slider and timeline of pictures
   MotionDock* motion_ = nullptr;
   Player* player_ = nullptr;
   std::vector<QDockWidget*> docks_;  // that may be hidden

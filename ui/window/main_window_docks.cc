@@ -16,6 +16,7 @@
 
 #include "src/draw/style.h"
 #include "src/joint_relation.h"
+#include "ui/window/key_frames_box.h"
 #include "ui/window/main_window.h"
 #include "ui/window/picture_canvas.h"
 #include "ui/window/timeline.h"
@@ -67,7 +68,8 @@ void MainWindow::AddJoints() {
 }
 
 void MainWindow::AddFrames() {
-  auto* const dock = new QDockWidget(tr("Pictures"), this);
+  const bool has_keys = session_.HasKeyFrames();
+  auto* const dock = new QDockWidget(has_keys ? tr("Key frames") : tr("Pictures"), this);
   dock->setObjectName("frames_dock");
   auto* const box = new QWidget(dock);
   auto* const column = new QVBoxLayout(box);
@@ -77,6 +79,7 @@ void MainWindow::AddFrames() {
   frames_->setAccessibleName(tr("Picture"));
   column->addWidget(timeline_);
   column->addWidget(frames_);
+  if (has_keys) AddKeyFrames(box);
   dock->setWidget(box);
   docks_.push_back(dock);
   addDockWidget(Qt::BottomDockWidgetArea, dock);
@@ -85,6 +88,15 @@ void MainWindow::AddFrames() {
     session_.GoToFrame(static_cast<size_t>(value));
     Refresh();
   });
+}
+
+void MainWindow::AddKeyFrames(QWidget* box) {
+  timeline_->hide();
+  frames_->hide();
+  key_frames_ = new KeyFramesBox(&session_, keys_, box);
+  box->layout()->addWidget(key_frames_);
+  connect(key_frames_, &KeyFramesBox::Changed, this, &MainWindow::Refresh);
+  connect(key_frames_, &KeyFramesBox::Asked, this, &MainWindow::Do);
 }
 
 void MainWindow::AddHints() {

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the poselift authors
 //
 // The motion of the person at hand: its dock, playing it.
-#include <QSlider>
 
 #include "ui/window/main_window.h"
 #include "ui/window/motion_dock.h"
@@ -19,7 +18,10 @@ void MainWindow::AddMotion() {
   motion_->hide();
   connect(motion_, &MotionDock::Asked, this, [this] { Do(Action::kSmoothMotion); });
   connect(motion_, &MotionDock::Changed, this, &MainWindow::Refresh);
-  connect(motion_, &MotionDock::Chosen, frames_, &QSlider::setValue);
+  connect(motion_, &MotionDock::Chosen, this, [this](int frame) {
+    session_.GoToMotionFrame(static_cast<size_t>(frame));
+    Refresh();
+  });
   player_ = new Player(
       &session_, [this] { return reading_.IsBusy(); }, this);
   connect(player_, &Player::FrameDue, this, [this](int frame) {
@@ -27,7 +29,7 @@ void MainWindow::AddMotion() {
     Refresh();
   });
   connect(player_, &Player::Stopped, this, [this] {
-    session_.GoToFrame(session_.frame_index());
+    session_.GoToMotionFrame(session_.MotionFrame());
     Refresh();
   });
 }

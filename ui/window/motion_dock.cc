@@ -114,6 +114,11 @@ QString MotionDock::Text() const {
   if (!motion->HasPoses()) return tr("No motion: the reason stands beside");
   size_t num_poses = 0;
   for (size_t f = 0; f < motion->is_filled.size(); ++f) num_poses += motion->PoseOf(f) ? 1 : 0;
+  if (session_->HasKeyFrames())
+    return tr("Person %1: %2 frames from %3 key frames")
+        .arg(motion->person_id)
+        .arg(num_poses)
+        .arg(session_->labels().frames.size());
   const auto num_filled = std::ranges::count(motion->is_filled, true);
   return tr("Person %1: %2 pictures, %3 filled%4")
       .arg(motion->person_id)

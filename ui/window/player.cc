@@ -20,18 +20,17 @@ Player::Player(LabelSession* session, std::function<bool()> is_late, QObject* pa
 
 void Player::Toggle() {
   if (is_playing()) return Stop();
-  const size_t num_frames = session_->labels().frames.size();
-  if (num_frames < 2) return;
-  const bool is_at_end = session_->frame_index() + 1 == num_frames;
-  playback_.emplace(session_->labels(), is_at_end ? 0 : session_->frame_index());
-  shown_ = session_->frame_index();
+  if (session_->labels().frames.size() < 2) return;
+  shown_ = session_->MotionFrame();
+  const bool is_at_end = shown_ + 1 == session_->NumMotionFrames();
+  playback_ = session_->PlaybackFrom(is_at_end ? 0 : shown_);
   clock_.start();
   timer_.start();
 }
 
 void Player::Tick() {
   if (!playback_) return;
-  if (session_->frame_index() != shown_) return Stop();
+  if (session_->MotionFrame() != shown_) return Stop();
   if (is_late_()) return;
   const double elapsed_s = static_cast<double>(clock_.nsecsElapsed()) * 1e-9;
   const size_t frame = playback_->FrameAt(elapsed_s);

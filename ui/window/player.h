@@ -27,7 +27,7 @@ class Player : public QObject {
   bool is_playing() const { return playback_.has_value(); }
 
  signals:
-  void FrameDue(int frame);
+  void FrameDue(int frame);  // of the motion
   void Stopped();
 
  private:

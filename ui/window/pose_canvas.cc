@@ -99,6 +99,7 @@ void PoseCanvas::PaintHandles(QPainter* painter) const {
 
 // Which pose it is, once there are two kinds.
 QString PoseCanvas::Kind() const {
+  if (session_->HasKeyFrames()) return session_->IsBetween() ? tr("between key frames") : QString();
   const PersonMotion* const motion = session_->motion();
   if (!motion || !motion->HasPoses()) return {};
   if (!session_->ShowsMotion()) return tr("this picture alone");

@@ -47,7 +47,9 @@ class PoseCanvas : public OrbitCanvas {
     bool is_moved = false;
   };
   // Of a frame by itself; a motion is only looked at.
-  bool HasHandles() const { return session_->pose() && !session_->ShowsMotion(); }
+  bool HasHandles() const {
+    return session_->pose() && !session_->ShowsMotion() && !session_->IsBetween();
+  }
   PoseViewInput Input() const;
   Scene Stage() const;
   std::optional<size_t> Hit(const QPointF& x_in_widget) const;

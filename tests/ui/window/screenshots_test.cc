@@ -151,6 +151,8 @@ TEST_F(Screenshots, OfAPoseFromNothing) {
     const auto handle = std::ranges::find(session.handles(), name, &PoseHandle::name);
     return pose->HandleAt(static_cast<size_t>(handle - session.handles().begin()))->toPoint();
   };
+  QTest::keyClick(&window, Qt::Key_Insert, Qt::ShiftModifier);
+  solve();
   QTest::mouseClick(pose, Qt::RightButton, {}, at("right_ankle"));
   solve();
   for (const auto& [name, by] : {std::pair{"left_wrist", QPoint(40, -110)},
@@ -163,8 +165,18 @@ TEST_F(Screenshots, OfAPoseFromNothing) {
     QTest::mouseRelease(pose, Qt::LeftButton, {}, from + by);
     solve();
   }
+  session.MoveKey(1, 20, Along::kAlone);
+  session.Do(Action::kAddKeyFrame);
+  session.GoToFrame(1);
+  solve();
+  session.WaitUntilSmoothed();
+  window.Refresh();
   QTest::mouseMove(pose, at("right_elbow"));
   Take("label-posing", &window);
+  session.GoToNumber(12);
+  window.findChild<QWidget*>("motion_dock")->show();
+  window.Refresh();
+  Take("label-between-keys", &window);
 }
 
 // With its video where the real data is.
