@@ -181,6 +181,7 @@ class LabelSession {
   bool DoPose(Action action);
   bool DoKeys(Action action);
   void AddKey();
+  void CheckIsKey() const;
   std::vector<PersonLabels> PeopleHere() const;
   std::string KeyStatus() const;
   void LabelsChanged();

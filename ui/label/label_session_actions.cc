@@ -32,7 +32,7 @@ bool LabelSession::Do(Action action) {
   notice_.clear();
   nearer_.reset();
   return DoMotion(action) || DoGo(action) || DoOnLandmark(action) || DoOnPerson(action) ||
-         DoHint(action) || DoFlow(action) || DoPose(action) || DoKeys(action) ||
+         DoHint(action) || DoKeys(action) || DoFlow(action) || DoPose(action) ||
          DoOnProject(action);
 }
 

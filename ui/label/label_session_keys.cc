@@ -61,12 +61,18 @@ bool LabelSession::DoKeys(Action action) {
       case Action::kAddKeyFrame:
         AddKey();
         return true;
+      case Action::kPosesBetween:
+        if (!HasKeyFrames()) return false;
+        notice_ = "the poses between key frames are there: play them";
+        return true;
       case Action::kRemoveFrame:
+        CheckIsKey();
         Apply(RemoveKeyFrame(labels(), Keys(), frame_index_));
         GoToFrame(frame_index_);
         return true;
       case Action::kKeyEarlier:
       case Action::kKeyLater:
+        CheckIsKey();
         MoveKey(frame_index_, Keys().numbers[frame_index_] + (action == Action::kKeyLater ? 1 : -1),
                 Along::kAlone);
         return true;
@@ -83,6 +89,10 @@ bool LabelSession::DoKeys(Action action) {
     notice_ = error.what();
     return true;
   }
+}
+
+void LabelSession::CheckIsKey() const {
+  if (between_) throw std::invalid_argument("this is no key frame: go to one first");
 }
 
 // Between key frames, as the motion is there; on one, as that is.
@@ -136,10 +146,10 @@ std::string LabelSession::KeyStatus() const {
   const std::string when = fmt::format("frame {}, {:.2f} s", number, keys.Time_s(number));
   if (!between_)
     return fmt::format("key frame {} of {}, {}", frame_index_ + 1, keys.numbers.size(), when);
-  std::string where = number < keys.numbers.front()  ? "before the first key frame"
-                      : number > keys.numbers.back() ? "behind the last key frame"
-                                                     : "between key frames";
-  return fmt::format("{}: {}   {} makes one here", when, where, "Shift+Insert");
+  const char* const where = number < keys.numbers.front()  ? "before the first key frame"
+                            : number > keys.numbers.back() ? "behind the last key frame"
+                                                           : "between key frames";
+  return fmt::format("{}, {}   a key frame that is added here is this pose", when, where);
 }
 
 }  // namespace poselift

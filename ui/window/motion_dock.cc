@@ -131,7 +131,9 @@ void MotionDock::Refresh() {
   const bool is_busy = session_->MotionProgress().has_value();
   if (is_busy && !timer_.isActive()) timer_.start();
   if (!is_busy) timer_.stop();
-  ask_->setText(is_busy ? tr("Cancel") : tr("Smooth motion"));
+  ask_->setText(is_busy                    ? tr("Cancel")
+                : session_->HasKeyFrames() ? tr("Make motion")
+                                           : tr("Smooth motion"));
   ask_->setAccessibleName(ask_->text());
   progress_->setVisible(is_busy);
   text_->setVisible(!is_busy);

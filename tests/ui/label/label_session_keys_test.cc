@@ -159,6 +159,9 @@ TEST_F(LabelSessionKeysTest, TheMotionIsThereAfterEachChangeAndPassesTheKeyFrame
   EXPECT_FALSE(session_->PressHandle(0, PoseDrag::Way::kFree));
   Do(Action::kStepForward);
   EXPECT_EQ(session_->Number(), 6);
+  Do(Action::kRemoveFrame);
+  EXPECT_EQ(project_->labels().frames.size(), 3U);
+  EXPECT_EQ(session_->Status(), "this is no key frame: go to one first");
   Do(Action::kPreviousFrame);  // the key frame before
   EXPECT_EQ(session_->Number(), 0);
   EXPECT_FALSE(session_->IsBetween());
