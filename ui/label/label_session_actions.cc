@@ -69,6 +69,7 @@ bool LabelSession::DoGo(Action action) {
       GoToFrame(NextWhere(true, -1));
       return true;
     case Action::kSuggested:
+      if (HasKeyFrames()) return true;  // there is no picture to label
       if (const auto frame = SuggestedFrame(labels(), PersonOfMotion(), motion()))
         GoToFrame(*frame);
       else

@@ -11,6 +11,7 @@
 #include <QSpinBox>
 #include <QVBoxLayout>
 
+#include "ui/window/key_list.h"
 #include "ui/window/key_timeline.h"
 
 namespace poselift {
@@ -87,7 +88,7 @@ QPushButton* KeyFramesBox::MakeButton(const QString& text, Action action, const 
   const ActionInfo& info = InfoOf(action);
   auto* const button = new QPushButton(text, this);
   button->setObjectName(QString("button_") + info.name.data());
-  button->setAccessibleName(tr(info.description.data()));
+  button->setAccessibleName(DescriptionOf(info));
   button->setToolTip(
       QString("%1 (%2)").arg(button->accessibleName(), QString::fromStdString(keys.Text(action))));
   button->setFocusPolicy(Qt::TabFocus);

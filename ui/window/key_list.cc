@@ -7,13 +7,10 @@
 #include <QMessageBox>
 
 namespace poselift {
-namespace {
 
 QString DescriptionOf(const ActionInfo& info) {
   return QCoreApplication::translate("Keys", info.description.data());
 }
-
-}  // namespace
 
 void SetUp(QAction* item, const ActionInfo& info, const KeyMap& keys) {
   item->setObjectName(QString::fromUtf8(info.name.data(), std::ssize(info.name)));

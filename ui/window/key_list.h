@@ -13,6 +13,8 @@ class QWidget;
 
 namespace poselift {
 
+QString DescriptionOf(const ActionInfo& info);
+
 // Gives an action its name, its keys, and a tip that tells both what it does and the keys.
 void SetUp(QAction* item, const ActionInfo& info, const KeyMap& keys);
 

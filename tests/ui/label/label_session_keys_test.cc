@@ -205,10 +205,11 @@ TEST_F(LabelSessionKeysTest, AllFilesHaveTheMotionAtItsRate) {
   Wait();
   Do(Action::kSave);
   session_->Export(folder_ / "all");
-  session_->ExportMotion(folder_ / "one.bvh");
-  session_->ExportMotion(folder_ / "one.json");
-  session_->ExportMotion(folder_ / "one.csv");
-  session_->ExportMotion(folder_ / "one.amc");
+  session_->WaitUntilExported();
+  for (const char* file : {"one.bvh", "one.json", "one.csv", "one.amc"}) {
+    session_->ExportMotion(folder_ / file);
+    session_->WaitUntilExported();
+  }
   const auto run = testing::RunProgram("lift --labels " + file_.string() + " --out " +
                                        (folder_ / "program").string());
   EXPECT_EQ(run.code, 0) << run.err;

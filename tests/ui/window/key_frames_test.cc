@@ -192,6 +192,7 @@ TEST_F(KeyFramesTest, TheirAnglesArePlottedAndAClickInThePlotGoesThere) {
 TEST_F(KeyFramesTest, AreExportedAsAMotionAtTheirRate) {
   DragKey(15, 9);
   window_->ExportMotionTo(QString::fromStdString((folder_ / "hero.bvh").string()));
+  window_->session().WaitUntilExported();
   const Motion motion = ReadMotion(folder_ / "hero.bvh");
   EXPECT_EQ(motion.frames.size(), 31U);
   EXPECT_NEAR(motion.frame_time_s, 1.0 / 30.0, 1e-7);
