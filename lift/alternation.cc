@@ -45,7 +45,7 @@ void Alternation::UpdateCode(LiftSolution* solution) {
     SparseCode refitted = solution->code;
     Refit(&refitted);
     const double refitted_objective = Objective(refitted, solution->tau_rad);
-    if (!(objective < refitted_objective)) {
+    if (!(objective < (1.0 - options_.new_atoms_gain) * refitted_objective)) {
       code = std::move(refitted);
       objective = refitted_objective;
     }

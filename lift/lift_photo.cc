@@ -131,11 +131,7 @@ LiftResult PhotoLifter::LiftAtSkeletonSize(const Observation& observation) const
   const auto finish = [&](const LiftSolution& solution) {
     std::optional<LiftedPose> lifted =
         in_perspective ? FinishInPerspective(solution, observation) : Finish(solution, observation);
-    if (!lifted) return lifted;
-    MeasureErrors(observation, &*lifted);
-    lifted->cost = Cost(*lifted, observation);
-    lifted->unmet_hints = UnmetHints(observation.relations, lifted->joints_in_cam_m);
-    AddUnmetPins(observation, &*lifted);
+    if (lifted) Judge(observation, &*lifted);
     return lifted;
   };
   const auto wanted = static_cast<size_t>(options_.max_solutions);
@@ -156,11 +152,50 @@ LiftResult PhotoLifter::LiftAtSkeletonSize(const Observation& observation) const
   return result;
 }
 
-std::optional<LiftedPose> PhotoLifter::Finish(const LiftSolution& solution,
+LiftResult PhotoLifter::LiftPhotoFrom(const Observation& observation,
+                                      const LiftedPose& start) const {
+  const double size = SizeOf(observation, dictionary_.skeleton);
+  std::optional<LiftedPose> lifted =
+      Follow(start, observation.stature_m ? AtSkeletonSize(observation, size) : observation);
+  if (!lifted) return LiftPhoto(observation);
+  lifted->size = size;
+  return {LiftStatus::kOk, "", {std::move(*lifted)}};
+}
+
+// In perspective too one round: drags go on from where the last answer ended.
+std::optional<LiftedPose> PhotoLifter::Follow(const LiftedPose& start,
                                               const Observation& observation) const {
+  const bool has_2d = observation.Count(ObservedPoint::Kind::k2D) > 0;
+  const bool in_perspective = has_2d && observation.pinhole;
+  if (start.code.Empty() || has_2d != (start.camera.scale_px_per_m > 0.0)) return std::nullopt;
+  const Observation weak = in_perspective
+                               ? AsWeakPerspective(observation, start.joints_in_cam_m, start.camera)
+                               : observation;
+  if (!CanLift(weak).empty()) return std::nullopt;
+  LiftSolution solution;
+  solution.code = start.code;
+  solution.tau_rad = start.code_tau_rad;
+  solution.scale_px_per_m = start.code_scale_px_per_m;
+  auto lifted = Finish(lifter_.Follow(weak, std::move(solution)), weak, start.pose);
+  if (!lifted) return lifted;
+  if (in_perspective) lifted->pelvis_in_cam_m = PelvisInCam_m(*observation.pinhole, lifted->camera);
+  Judge(observation, &*lifted);
+  return lifted;
+}
+
+void PhotoLifter::Judge(const Observation& observation, LiftedPose* lifted) const {
+  MeasureErrors(observation, lifted);
+  lifted->cost = Cost(*lifted, observation);
+  lifted->unmet_hints = UnmetHints(observation.relations, lifted->joints_in_cam_m);
+  AddUnmetPins(observation, lifted);
+}
+
+std::optional<LiftedPose> PhotoLifter::Finish(const LiftSolution& solution,
+                                              const Observation& observation,
+                                              const std::optional<SkeletonPose>& start) const {
   const Pose3 pose_in_cam = CamFromBody(solution.tau_rad) * Unstacked(solution.pose_in_body_m);
   const Pose3 normalized_m = NormalizePose(pose_in_cam, bone_lengths_m_);
-  const RefinementResult refined = refinement_.Solve(normalized_m, observation);
+  const RefinementResult refined = refinement_.Solve(normalized_m, observation, start);
   if (!IsUsable(refined.status)) return std::nullopt;
   LiftedPose lifted;
   lifted.pose = refined.pose;
@@ -168,6 +203,8 @@ std::optional<LiftedPose> PhotoLifter::Finish(const LiftSolution& solution,
   lifted.camera = refined.camera;
   if (!refined.has_camera) lifted.camera.scale_px_per_m = 0.0;
   lifted.code = solution.code;
+  lifted.code_tau_rad = solution.tau_rad;
+  lifted.code_scale_px_per_m = solution.scale_px_per_m;
   return lifted;
 }
 

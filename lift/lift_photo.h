@@ -42,6 +42,9 @@ struct LiftedPose {
   // frame by itself.
   Eigen::VectorXd angles_sigma_deg;
   SparseCode code;  // x: metres
+  // Where (P1) ended: the camera of the code's pose, whose bones are not quite the skeleton's.
+  Eigen::Vector3d code_tau_rad = Eigen::Vector3d::Zero();
+  double code_scale_px_per_m = 1.0;
   // How much larger the person is than the skeleton, where a hint says how tall they are.
   double size = 1.0;
   std::vector<int> unmet_hints;  // of PersonLabels::hints
@@ -85,15 +88,24 @@ class PhotoLifter {
   // says which it does not meet.
   LiftResult LiftPhoto(const Observation& observation) const;
 
+  // The pose that `start`, of about the same points, becomes, for answers while a point is dragged:
+  // a step of (P1) and the refinement from there alone. No other views are looked at, so that it
+  // may be another minimum than the best. LiftPhoto where that gives nothing: a start that was not
+  // lifted, or of a picture where there is none.
+  LiftResult LiftPhotoFrom(const Observation& observation, const LiftedPose& start) const;
+
   const Dictionary& dictionary() const { return dictionary_; }
 
  private:
   LiftResult LiftAtSkeletonSize(const Observation& observation) const;
   // Nothing when no pose of the skeleton fits.
-  std::optional<LiftedPose> Finish(const LiftSolution& solution,
-                                   const Observation& observation) const;
+  std::optional<LiftedPose> Finish(const LiftSolution& solution, const Observation& observation,
+                                   const std::optional<SkeletonPose>& start = std::nullopt) const;
   std::optional<LiftedPose> FinishInPerspective(const LiftSolution& solution,
                                                 const Observation& observation) const;
+  std::optional<LiftedPose> Follow(const LiftedPose& start, const Observation& observation) const;
+  // Sets errors, cost and the hints that are not met.
+  void Judge(const Observation& observation, LiftedPose* lifted) const;
   double Cost(const LiftedPose& lifted, const Observation& observation) const;
 
   const Dictionary& dictionary_;

@@ -18,6 +18,8 @@ constexpr int kLeastPoints = 4;
 constexpr int kPointsOfAWholeBody = 15;
 // How far off a pose that was mirrored may be: it is where to start.
 constexpr double kMirrorSigma_m = 0.1;
+// Of points that are dragged: less lets the pose jump at the first move, more changes nothing.
+constexpr double kNewAtomsGain = 0.05;
 // px or m: fourth powers of what lies within are far from overflow.
 constexpr double kFarthest = 1e9;
 
@@ -95,6 +97,8 @@ std::string LifterOptions::Validate() const {
     return fmt::format("LifterOptions::max_alternations = {}, wanted at least 1", max_alternations);
   if (!(min_improvement >= 0.0))
     return fmt::format("LifterOptions::min_improvement = {}, wanted at least 0", min_improvement);
+  if (!(new_atoms_gain >= 0.0 && new_atoms_gain < 1.0))
+    return fmt::format("LifterOptions::new_atoms_gain = {}, wanted 0 to below 1", new_atoms_gain);
   if (trial_alternations < 1)
     return fmt::format("LifterOptions::trial_alternations = {}, wanted at least 1",
                        trial_alternations);
@@ -205,6 +209,15 @@ LiftSolution Lifter::GoOnFrom(const Observation& observation, LiftSolution start
   Alternation alternation(dictionary_, options_, observation, prior_rows_, prior_target_);
   alternation.StartFrom(std::move(start.code), &start);
   alternation.Run(options_.max_alternations, &start);
+  return start;
+}
+
+LiftSolution Lifter::Follow(const Observation& observation, LiftSolution start) const {
+  LifterOptions options = options_;
+  options.new_atoms_gain = kNewAtomsGain;
+  Alternation alternation(dictionary_, options, observation, prior_rows_, prior_target_);
+  alternation.StartFrom(std::move(start.code), &start);
+  alternation.Run(1, &start);
   return start;
 }
 

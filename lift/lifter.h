@@ -31,6 +31,8 @@ struct LifterOptions {
   double prior_weight = 1.0;
   int max_alternations = 15;
   double min_improvement = 1e-3;  // relative, of the objective
+  // By how much OMP's new atoms must be better than the old ones refitted: a part of the objective.
+  double new_atoms_gain = 0.0;
   // After this many alternations only the best finish.
   int trial_alternations = 2;
   int num_finishing = 4;
@@ -73,6 +75,11 @@ class Lifter {
   // The alternation to convergence from a solution of another observation, which can be
   // lifted: its code too is where it starts.
   LiftSolution GoOnFrom(const Observation& observation, LiftSolution start) const;
+
+  // One alternation from a solution of about the same observation, which can be lifted; atoms
+  // change only where that is clearly better. For points that are dragged: each answer goes on from
+  // the one before, and a pose whose points hardly move does not either.
+  LiftSolution Follow(const Observation& observation, LiftSolution start) const;
 
  private:
   void AddMirrored(const Observation& observation, Alternation* alternation,

@@ -418,6 +418,7 @@ TEST(LifterOptions, ValidateNamesTheOptionThatIsWrong) {
   EXPECT_THAT(LifterOptions{.prior_weight = std::nan("")}.Validate(), HasSubstr("prior_weight"));
   EXPECT_THAT(LifterOptions{.max_alternations = 0}.Validate(), HasSubstr("max_alternations"));
   EXPECT_THAT(LifterOptions{.min_improvement = -1}.Validate(), HasSubstr("min_improvement"));
+  EXPECT_THAT(LifterOptions{.new_atoms_gain = 1.0}.Validate(), HasSubstr("new_atoms_gain"));
   EXPECT_THAT(LifterOptions{.trial_alternations = 0}.Validate(), HasSubstr("trial_alternations"));
   EXPECT_THAT(LifterOptions{.num_finishing = 0}.Validate(), HasSubstr("num_finishing"));
   EXPECT_THAT(LifterOptions{.distinct_m = -1}.Validate(), HasSubstr("distinct_m"));
