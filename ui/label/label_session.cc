@@ -23,10 +23,10 @@ LabelSession::LabelSession(LabelProject* project, const PhotoLifter& lifter,
       layout_(FindLayout(project->labels().layout)),
       wake_(std::move(answered)),
       solver_(lifter,
-              [this](uint64_t number, const LiftResult& result) {
+              [this](PoseSolver::Answer answer) {
                 {
                   const std::scoped_lock lock(mutex_);
-                  waiting_ = {number, result};
+                  waiting_ = std::move(answer);
                 }
                 if (wake_) wake_();
               }),
@@ -121,7 +121,9 @@ void LabelSession::Release() {
     drag.edit = PlaceLandmark(labels(), Ref(), name, drag.pressed_px);
     drag.is_new = true;
   }
+  const uint64_t asked_on_the_way = asked_;
   Apply(*drag.edit);
+  if (asked_ == asked_on_the_way) Ask();  // nothing changed, but the pose may be a local minimum
   if (drag.is_new) Advance();
 }
 
@@ -194,63 +196,6 @@ void LabelSession::Apply(LabelEdit edit) {
   } catch (const InputError& error) {  // of what labels cannot hold, or of others who hold them
     notice_ = error.what();
   }
-}
-
-void LabelSession::Ask() {
-  const FrameLabels frame = Frame();
-  Observation observation;
-  if (person_index_ < frame.people.size())
-    observation = Observe(frame.people[person_index_], *layout_);
-  const std::scoped_lock lock(mutex_);
-  asked_observation_ = observation;
-  if (is_playing_ && ShowsMotion()) {
-    result_ = {};
-    asked_ = answered_ = 0;  // what is still being solved is of a frame gone by
-    return;
-  }
-  asked_ = solver_.Ask(std::move(observation));
-}
-
-bool LabelSession::TakeAnswer() {
-  const bool is_followed = TakeFollowed(), has_motion = TakeMotion();
-  const std::scoped_lock lock(mutex_);
-  // An older one is of labels that are no more.
-  if (!waiting_ || waiting_->first != asked_) return is_followed || has_motion;
-  result_ = std::move(waiting_->second);
-  waiting_.reset();
-  observation_ = asked_observation_;
-  answered_ = asked_;
-  pose_index_ = 0;
-  return true;
-}
-
-void LabelSession::WaitUntilSolved() {
-  solver_.WaitUntilIdle();
-  TakeAnswer();
-}
-
-const LiftedPose* LabelSession::pose() const {
-  return pose_index_ < result_.poses.size() ? &result_.poses[pose_index_] : nullptr;
-}
-
-std::optional<double> LabelSession::Residual_px(std::string_view landmark) const {
-  const LiftedPose* lifted = ShownPose();
-  if (!lifted) return std::nullopt;
-  const auto& points = observation().points;
-  for (Eigen::Index i = 0; i < std::min(std::ssize(points), lifted->point_errors.size()); ++i) {
-    const ObservedPoint& point = points[static_cast<size_t>(i)];
-    if (point.name == landmark && point.kind == ObservedPoint::Kind::k2D)
-      return lifted->point_errors[i];
-  }
-  return std::nullopt;
-}
-
-std::optional<double> LabelSession::ResidualInSigmas(std::string_view landmark) const {
-  const auto residual_px = Residual_px(landmark);
-  const auto& points = observation().points;
-  const auto point = std::ranges::find(points, landmark, &ObservedPoint::name);
-  if (!residual_px || point == points.end()) return std::nullopt;
-  return *residual_px / point->sigma;
 }
 
 std::filesystem::path LabelSession::PicturePath() const {

@@ -36,6 +36,8 @@ namespace poselift {
 // A person at work on a project: which frame, person and landmark is at hand, what the mouse and
 // the keys do to the labels, and the 3D poses that answer. A window only paints it and forwards
 // events. After each change of the labels of a frame its person is lifted anew, in the background.
+// While something is dragged that goes on from the pose shown, which is quick (LiftPhotoFrom), and
+// answers are shown although the mouse is farther by then; what is let go is lifted from all views.
 class LabelSession {
  public:
   // answered: called in another thread when an answer waits to be taken. project and lifter must
@@ -229,10 +231,12 @@ class LabelSession {
   std::optional<int> between_;  // the number of a frame that is no key frame, or is played
 
   std::mutex mutex_;
-  std::optional<std::pair<uint64_t, LiftResult>> waiting_;  // guarded by mutex_
-  std::function<void()> wake_;                              // the window, from another thread
+  std::optional<PoseSolver::Answer> waiting_;  // guarded by mutex_
+  std::function<void()> wake_;                 // the window, from another thread
   std::optional<PersonLabels> clipboard_;
   uint64_t asked_ = 0, answered_ = 0;
+  uint64_t first_wanted_ = 0;  // answers from this request on are shown: all those of a drag
+  size_t asked_person_ = 0;
   Observation asked_observation_, observation_;
   LiftResult result_;
   size_t pose_index_ = 0;

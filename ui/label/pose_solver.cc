@@ -7,7 +7,7 @@
 
 namespace poselift {
 
-PoseSolver::PoseSolver(const PhotoLifter& lifter, Answer answer)
+PoseSolver::PoseSolver(const PhotoLifter& lifter, OnAnswer answer)
     : lifter_(lifter), answer_(std::move(answer)), thread_([this] { Run(); }) {}
 
 PoseSolver::~PoseSolver() {
@@ -19,9 +19,9 @@ PoseSolver::~PoseSolver() {
   thread_.join();
 }
 
-uint64_t PoseSolver::Ask(Observation observation) {
+uint64_t PoseSolver::Ask(PoseRequest request) {
   const std::scoped_lock lock(mutex_);
-  next_ = std::move(observation);
+  next_ = std::move(request);
   changed_.notify_all();
   return ++newest_;
 }
@@ -36,19 +36,19 @@ void PoseSolver::Run() {
   while (true) {
     changed_.wait(lock, [this] { return is_ended_ || next_; });
     if (is_ended_) return;
-    const Observation observation = std::move(*next_);
-    next_.reset();
+    PoseRequest request = *std::exchange(next_, std::nullopt);
     const uint64_t number = newest_;
     is_busy_ = true;
     lock.unlock();
     LiftResult result;
     try {
-      result = lifter_.LiftPhoto(observation);
+      result = request.start ? lifter_.LiftPhotoFrom(request.observation, *request.start)
+                             : lifter_.LiftPhoto(request.observation);
     } catch (const std::exception& error) {
       result.status = LiftStatus::kFailed;
       result.message = error.what();
     }
-    answer_(number, result);
+    answer_({number, std::move(request.observation), std::move(result)});
     lock.lock();
     is_busy_ = false;
     changed_.notify_all();

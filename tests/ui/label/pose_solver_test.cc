@@ -22,12 +22,12 @@ class PoseSolverTest : public ::testing::Test {
   Dictionary dictionary_ = testing::RandomDictionary(64, &rng_);
   PhotoLifter lifter_{dictionary_};
   std::mutex mutex_;
-  std::vector<std::pair<uint64_t, LiftResult>> answers_;
+  std::vector<PoseSolver::Answer> answers_;
 
-  PoseSolver::Answer Keep() {
-    return [this](uint64_t number, const LiftResult& result) {
+  PoseSolver::OnAnswer Keep() {
+    return [this](PoseSolver::Answer answer) {
       const std::scoped_lock lock(mutex_);
-      answers_.emplace_back(number, result);
+      answers_.push_back(std::move(answer));
     };
   }
   Observation Seen(double turn_px) const {
@@ -45,7 +45,7 @@ TEST_F(PoseSolverTest, TheNewestRequestIsAnsweredAsTheLifterWould) {
   PoseSolver solver(lifter_, Keep());
   uint64_t last = 0;
   for (int i = 0; i < 20; ++i) {
-    const uint64_t number = solver.Ask(Seen(i));
+    const uint64_t number = solver.Ask({Seen(i)});
     EXPECT_GT(number, last);
     last = number;
   }
@@ -53,24 +53,36 @@ TEST_F(PoseSolverTest, TheNewestRequestIsAnsweredAsTheLifterWould) {
   const std::scoped_lock lock(mutex_);
   ASSERT_FALSE(answers_.empty());
   EXPECT_LT(answers_.size(), 20U);  // they came faster than they are lifted
-  EXPECT_EQ(answers_.back().first, last);
+  EXPECT_EQ(answers_.back().number, last);
   const LiftResult wanted = lifter_.LiftPhoto(Seen(19));
   ASSERT_TRUE(wanted.IsUsable());
-  EXPECT_TRUE(testing::MatrixNear(answers_.back().second.poses.front().joints_in_cam_m,
+  EXPECT_TRUE(testing::MatrixNear(answers_.back().result.poses.front().joints_in_cam_m,
+                                  wanted.poses.front().joints_in_cam_m, 0.0));
+}
+
+TEST_F(PoseSolverTest, ARequestWithAStartGoesOnFromThere) {
+  const LiftedPose start = lifter_.LiftPhoto(Seen(0.0)).poses.back();
+  PoseSolver solver(lifter_, Keep());
+  solver.Ask({Seen(0.0), start});
+  solver.WaitUntilIdle();
+  const std::scoped_lock lock(mutex_);
+  const LiftResult wanted = lifter_.LiftPhotoFrom(Seen(0.0), start);
+  ASSERT_EQ(answers_.back().result.poses.size(), 1U);
+  EXPECT_TRUE(testing::MatrixNear(answers_.back().result.poses.front().joints_in_cam_m,
                                   wanted.poses.front().joints_in_cam_m, 0.0));
 }
 
 TEST_F(PoseSolverTest, WhatCannotBeLiftedIsAnsweredToo) {
   PoseSolver solver(lifter_, Keep());
-  solver.Ask({});
+  solver.Ask(PoseRequest());
   solver.WaitUntilIdle();
   ASSERT_EQ(answers_.size(), 1U);
-  EXPECT_EQ(answers_[0].second.status, LiftStatus::kCannotLift);
+  EXPECT_EQ(answers_[0].result.status, LiftStatus::kCannotLift);
 }
 
 TEST_F(PoseSolverTest, EndsWithRequestsOpen) {
   PoseSolver solver(lifter_, Keep());
-  for (int i = 0; i < 5; ++i) solver.Ask(Seen(i));
+  for (int i = 0; i < 5; ++i) solver.Ask({Seen(i)});
 }
 
 }  // namespace
