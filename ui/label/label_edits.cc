@@ -109,12 +109,13 @@ const Layout& LayoutOf(const Labels& labels) {
 LabelEdit TransformPerson(const Labels& labels, PersonRef ref, const Eigen::Affine2d& new_from_old,
                           double radius_factor, std::string_view verb) {
   PersonLabels person = PersonAt(labels, ref);
+  const std::string name = fmt::format("{} person {}", verb, ref.id);
+  if (new_from_old.matrix() == Eigen::Affine2d::Identity().matrix()) return {.name = name};
   for (LandmarkLabel& landmark : person.landmarks) {
     landmark.x_px = new_from_old * landmark.x_px;
     if (landmark.radius_px) *landmark.radius_px *= radius_factor;
   }
-  return WithPerson(labels, ref.frame, std::move(person),
-                    fmt::format("{} person {}", verb, ref.id));
+  return WithPerson(labels, ref.frame, std::move(person), name);
 }
 
 template <typename Linear>
