@@ -12,8 +12,9 @@ QImage ImageFrom(const cv::Mat& bgr) {
 }
 
 QImage EmptyPicture(const QSize& size_px) {
-  QImage picture(size_px, QImage::Format_RGB32);
-  picture.fill(QColor(236, 236, 232));
+  QImage picture(size_px, QImage::Format_Mono);  // a large one takes no room while another is read
+  picture.setColorTable({qRgb(236, 236, 232), qRgb(0, 0, 0)});
+  picture.fill(0);
   return picture;
 }
 

@@ -28,7 +28,8 @@ PictureCanvas::PictureCanvas(LabelSession* session, QWidget* parent)
 
 void PictureCanvas::SetPicture(const QImage& picture) {
   levels_.assign(1, picture);
-  while (std::min(levels_.back().width(), levels_.back().height()) > 1024)
+  const bool is_of_one_color = picture.depth() == 1;  // EmptyPicture
+  while (!is_of_one_color && std::min(levels_.back().width(), levels_.back().height()) > 1024)
     levels_.push_back(levels_.back().scaled(levels_.back().size() / 2, Qt::IgnoreAspectRatio,
                                             Qt::SmoothTransformation));
   if (is_fitted_) Fit();
