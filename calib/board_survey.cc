@@ -50,7 +50,7 @@ OtherTags OthersOf(const BoardSurvey& survey) {
   for (const BoardAbsence& absence : survey.absences) {
     if (!absence.others) continue;
     OtherTags& tags =
-        families.try_emplace(absence.others->family, *absence.others, 0).first->second;
+        families.try_emplace(absence.others->family, OtherTags{*absence.others}).first->second;
     tags.range.first_id = std::min(tags.range.first_id, absence.others->first_id);
     tags.range.last_id = std::max(tags.range.last_id, absence.others->last_id);
     if (++tags.times >= most.times) most = tags;

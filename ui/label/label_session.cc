@@ -123,7 +123,7 @@ void LabelSession::Release() {
   }
   const uint64_t asked_on_the_way = asked_;
   Apply(*drag.edit);
-  if (asked_ == asked_on_the_way) Ask();  // nothing changed, but the pose may be a local minimum
+  if (asked_ == asked_on_the_way) Ask();  // refused, or nothing: the labels are as they were
   if (drag.is_new) Advance();
 }
 

@@ -114,6 +114,21 @@ TEST_F(LabelSessionDrag, OfAllLabelsAndBackIsNoStepAndEndsInTheBestOfAllViews) {
   ExpectTheBestOfAllViews();
 }
 
+TEST_F(LabelSessionDrag, ThatIsRefusedLeavesThePoseOfTheLabels) {
+  LabelProject read_only(testing::ScratchDir() / "kick.labels.json");  // the other one writes
+  ASSERT_TRUE(read_only.read_only());
+  session_.emplace(&read_only, lifter_, nullptr);
+  session_->WaitUntilSolved();
+  session_->PressPerson({100.0, 100.0});
+  session_->Move({140.0, 100.0});
+  session_->WaitUntilSolved();
+  session_->Release();
+  session_->WaitUntilSolved();
+  ExpectTheBestOfAllViews();
+  EXPECT_EQ(session_->observation().points.front().x.head<2>(), Person().landmarks.front().x_px);
+  session_.reset();
+}
+
 TEST_F(LabelSessionDrag, AnswersOfAMomentAgoAreShownWhileTheMouseGoesOn) {
   const Eigen::Vector2d from_px = Place_px("left_wrist");
   session_->Press(from_px, 8.0);
