@@ -48,8 +48,7 @@ void LabelSession::ExportMotion(const fs::path& path) {
   if (!IsMotionCurrent())
     throw InputError(
         "found labels that have changed since the motion was made, wanted a motion of these: "
-        "smooth "
-        "the motion again");
+        "smooth the motion again");
   StartExport([&lifter = lifter_, motion = motion_, path](const ProgressFn& progress) {
     WriteLiftedMotion(motion->lifted, lifter.dictionary().skeleton, path, progress);
     return path;
