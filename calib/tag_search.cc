@@ -55,8 +55,10 @@ void KeepBest(std::vector<TagDetection>* found) {
   std::ranges::sort(*found, {}, [](const TagDetection& tag) {
     return std::tuple(tag.id, tag.hamming, -tag.decision_margin);
   });
-  const auto again = std::ranges::unique(*found, {}, &TagDetection::id);
-  found->erase(again.begin(), again.end());
+  const auto again = std::unique(
+      found->begin(), found->end(),
+      [](const TagDetection& one, const TagDetection& other) { return one.id == other.id; });
+  found->erase(again, found->end());
 }
 
 // What each region shows, in pixels of the whole picture.

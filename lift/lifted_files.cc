@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <array>
-#include <ranges>
+#include <string_view>
+#include <vector>
 
 #include "lift/key_frames.h"
 #include "src/input_error.h"
@@ -81,13 +82,12 @@ std::span<const LiftedFormat> LiftedFormats() { return kFormats; }
 void WriteLiftedMotion(const LiftedLabels& lifted, const Skeleton& skeleton,
                        const std::filesystem::path& path, const ProgressFn& progress) {
   const std::string ending = path.extension().string();
-  if (std::ranges::none_of(kFormats, [&](const LiftedFormat& format) {
-        return EqualsIgnoringCase(ending, format.ending);
-      }))
-    throw InputError(
-        path,
-        fmt::format("found the ending {}, wanted one of {}", Quoted(ending),
-                    fmt::join(kFormats | std::views::transform(&LiftedFormat::ending), ", ")));
+  std::vector<std::string_view> endings;
+  for (const LiftedFormat& format : kFormats) endings.push_back(format.ending);
+  if (std::ranges::none_of(
+          endings, [&](std::string_view known) { return EqualsIgnoringCase(ending, known); }))
+    throw InputError(path, fmt::format("found the ending {}, wanted one of {}", Quoted(ending),
+                                       fmt::join(endings, ", ")));
   if (!AnyUsable(lifted)) throw InputError(path, "found no pose to write, wanted a lifted motion");
   if (EqualsIgnoringCase(ending, ".json")) return WritePosesJson(lifted.poses, path);
   if (EqualsIgnoringCase(ending, ".csv")) return WriteAnglesCsv(lifted.poses, path);

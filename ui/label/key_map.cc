@@ -8,11 +8,12 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
 #include <sstream>
+#include <utility>
 
 #include "src/input_error.h"
 #include "src/io/toml_file.h"
+#include "src/nearest_names.h"
 
 namespace poselift {
 namespace {
@@ -124,6 +125,12 @@ std::vector<std::string> KeysOf(const toml::node& node, const std::filesystem::p
   return keys;
 }
 
+std::vector<std::string> NearestActions(std::string_view name) {
+  std::vector<std::string> names;
+  for (const ActionInfo& info : kActions) names.emplace_back(info.name);
+  return NearestNames(name, std::move(names), 4);
+}
+
 }  // namespace
 
 std::span<const ActionInfo> Actions() { return kActions; }
@@ -144,10 +151,9 @@ KeyMap KeyMap::Read(const std::filesystem::path& path) {
   for (const auto& [name, node] : table) {
     const auto info = std::ranges::find(kActions, name.str(), &ActionInfo::name);
     if (info == kActions.end())
-      throw InputError(
-          path, static_cast<int>(name.source().begin.line),
-          fmt::format("found '{}', wanted the name of an action: {}", name.str(),
-                      fmt::join(kActions | std::views::transform(&ActionInfo::name), ", ")));
+      throw InputError(path, static_cast<int>(name.source().begin.line),
+                       fmt::format("found '{}', wanted the name of an action, perhaps one of {}",
+                                   name.str(), fmt::join(NearestActions(name.str()), ", ")));
     map.keys_[static_cast<size_t>(info->action)] = KeysOf(node, path);
   }
   std::map<std::pair<std::string, bool>, std::string_view> owners;
