@@ -76,25 +76,16 @@ LiftedPose FromColumn(const Eigen::VectorXd& column, const Skeleton& skeleton) {
   return lifted;
 }
 
-// Of each person those that can be lifted; and how long bones are where that is said.
-std::map<int, std::vector<Key>> LiftKeys(const PhotoLifter& lifter, const Labels& labels,
-                                         const KeyTimes& times, const ProgressFn& progress,
-                                         std::vector<PersonBones>* bodies) {
+// Of each person those that could be lifted.
+std::map<int, std::vector<Key>> KeysOf(LiftedLabels lifted, const KeyTimes& times) {
   std::map<int, std::vector<Key>> keys;
-  for (size_t f = 0; f < labels.frames.size(); ++f) {
-    const Labels alone{labels.layout, {labels.frames[f]}};
-    LiftedLabels lifted = LiftLabels(lifter, alone, std::nullopt, {});
-    for (size_t p = 0; p < lifted.results[0].size(); ++p) {
-      PersonPose& person = lifted.poses.frames[0].people[p];
-      if (lifted.results[0][p].IsUsable())
+  for (size_t f = 0; f < lifted.results.size(); ++f)
+    for (size_t p = 0; p < lifted.results[f].size(); ++p) {
+      PersonPose& person = lifted.poses.frames[f].people[p];
+      if (lifted.results[f][p].IsUsable())
         keys[person.id].push_back(
-            {times.numbers[f], std::move(lifted.results[0][p]), std::move(person)});
+            {times.numbers[f], std::move(lifted.results[f][p]), std::move(person)});
     }
-    for (const PersonBones& body : lifted.poses.bodies)
-      if (std::ranges::none_of(*bodies, [&](const auto& known) { return known.id == body.id; }))
-        bodies->push_back(body);
-    if (progress) progress(static_cast<double>(f + 1) / static_cast<double>(labels.frames.size()));
-  }
   return keys;
 }
 
@@ -188,7 +179,9 @@ LiftedLabels LiftKeyFrames(const PhotoLifter& lifter, const Labels& labels,
     throw InputError(fmt::format("found key frames {} frames apart, wanted a motion of up to {}",
                                  num_frames, KeyTimes::kMostNumber));
   LiftedLabels motion{.key_frame_time_s = times.Time_s(1)};
-  const auto keys = LiftKeys(lifter, labels, times, progress, &motion.poses.bodies);
+  LiftedLabels lifted = LiftLabels(lifter, labels, std::nullopt, progress);
+  motion.poses.bodies = std::move(lifted.poses.bodies);
+  const auto keys = KeysOf(std::move(lifted), times);
   motion.results.resize(static_cast<size_t>(num_frames));
   for (int number = first; number < first + num_frames; ++number)
     motion.poses.frames.push_back({.image = "", .time_s = times.Time_s(number), .people = {}});
