@@ -216,10 +216,15 @@ int64_t VideoFile::stated_frames() const {
   return static_cast<int64_t>(std::clamp(stated_frames_, 0.0, 1e9));
 }
 
-std::vector<double> ReadFrameTimes(const fs::path& path) {
+std::vector<double> ReadFrameTimes(const fs::path& path, const ProgressFn& progress) {
   VideoFile video(path);
+  const auto stated = static_cast<double>(video.stated_frames());
   std::vector<double> times_s;
-  while (const auto time_s = video.Skip_s()) times_s.push_back(*time_s);
+  while (const auto time_s = video.Skip_s()) {
+    times_s.push_back(*time_s);
+    if (progress)
+      progress(stated > 0.0 ? std::min(1.0, static_cast<double>(times_s.size()) / stated) : 0.0);
+  }
   return times_s;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/io/frame_source.h"
+#include "src/progress.h"
 
 namespace poselift {
 
@@ -57,7 +58,8 @@ class VideoFile : public FrameSource {
 };
 
 // The time of each frame of a video file, in order: decodes it once.
-std::vector<double> ReadFrameTimes(const std::filesystem::path& path);
+std::vector<double> ReadFrameTimes(const std::filesystem::path& path,
+                                   const ProgressFn& progress = {});
 
 // Whether a file with these first bytes (some hundreds) is a video: MP4 and
 // QuickTime, AVI, Matroska and WebM, MPEG, FLV, ASF, Ogg.

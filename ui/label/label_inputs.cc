@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the poselift authors
 #include "ui/label/label_inputs.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "src/input_error.h"
@@ -36,17 +35,15 @@ std::vector<fs::path> PicturesOf(const std::vector<std::string>& inputs) {
 // All that the video has.
 std::vector<double> AddFrames(const fs::path& path, FrameLabels frame, Labels* labels,
                               const ProgressFn& progress) {
-  VideoFile video(path);
-  frame.width_px = video.size_px().width;
-  frame.height_px = video.size_px().height;
-  const auto stated = static_cast<double>(video.stated_frames());
-  std::vector<double> times_s;
-  while (const auto time_s = video.Skip_s()) {
-    frame.frame = static_cast<int>(times_s.size());
-    frame.time_s = *time_s;
+  const cv::Size size_px = VideoFile(path).size_px();
+  frame.width_px = size_px.width;
+  frame.height_px = size_px.height;
+  frame.frame = 0;
+  std::vector<double> times_s = ReadFrameTimes(path, progress);
+  for (const double time_s : times_s) {
+    frame.time_s = time_s;
     labels->frames.push_back(frame);
-    times_s.push_back(*time_s);
-    progress(stated > 0.0 ? std::min(1.0, static_cast<double>(times_s.size()) / stated) : 0.0);
+    ++*frame.frame;
   }
   return times_s;
 }
