@@ -89,8 +89,7 @@ QPushButton* KeyFramesBox::MakeButton(const QString& text, Action action, const 
   auto* const button = new QPushButton(text, this);
   button->setObjectName(QString("button_") + info.name.data());
   button->setAccessibleName(DescriptionOf(info));
-  button->setToolTip(
-      QString("%1 (%2)").arg(button->accessibleName(), QString::fromStdString(keys.Text(action))));
+  button->setToolTip(TipOf(info, keys));
   button->setFocusPolicy(Qt::TabFocus);
   connect(button, &QPushButton::clicked, this, [this, action] { emit Asked(action); });
   return button;

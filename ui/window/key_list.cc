@@ -6,21 +6,27 @@
 #include <QCoreApplication>
 #include <QMessageBox>
 
+#include "ui/window/text_of.h"
+
 namespace poselift {
 
 QString DescriptionOf(const ActionInfo& info) {
   return QCoreApplication::translate("Keys", info.description.data());
 }
 
+QString TipOf(const ActionInfo& info, const KeyMap& keys) {
+  const QString text = DescriptionOf(info), shown = QString::fromStdString(keys.Text(info.action));
+  return shown.isEmpty() ? text : QString("%1 (%2)").arg(text, shown);
+}
+
 void SetUp(QAction* item, const ActionInfo& info, const KeyMap& keys) {
-  item->setObjectName(QString::fromUtf8(info.name.data(), std::ssize(info.name)));
+  item->setObjectName(TextOf(info.name));
   QList<QKeySequence> sequences;
   for (const std::string& key : keys.Keys(info.action))
     sequences << QKeySequence(QString::fromStdString(key));
   item->setShortcuts(sequences);
-  const QString text = DescriptionOf(info), shown = QString::fromStdString(keys.Text(info.action));
-  if (item->text().isEmpty()) item->setText(text);
-  item->setToolTip(shown.isEmpty() ? text : QString("%1 (%2)").arg(text, shown));
+  if (item->text().isEmpty()) item->setText(DescriptionOf(info));
+  item->setToolTip(TipOf(info, keys));
 }
 
 void ShowKeyList(QWidget* window, const KeyMap& keys, bool is_live, const QString& mouse) {

@@ -14,6 +14,8 @@ class QWidget;
 namespace poselift {
 
 QString DescriptionOf(const ActionInfo& info);
+// "Play or pause (K)"
+QString TipOf(const ActionInfo& info, const KeyMap& keys);
 
 // Gives an action its name, its keys, and a tip that tells both what it does and the keys.
 void SetUp(QAction* item, const ActionInfo& info, const KeyMap& keys);

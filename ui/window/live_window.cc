@@ -17,13 +17,9 @@
 #include "ui/window/live_canvas.h"
 #include "ui/window/live_pose.h"
 #include "ui/window/main_window.h"
+#include "ui/window/text_of.h"
 
 namespace poselift {
-namespace {
-
-QString TextOf(const std::filesystem::path& path) { return QString::fromStdString(path.string()); }
-
-}  // namespace
 
 LiveWindow::LiveWindow(std::function<LiveParts()> open, const Options& options,
                        const PhotoLifter& lifter, const KeyMap& keys)

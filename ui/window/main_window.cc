@@ -24,6 +24,7 @@
 #include "ui/window/picture_canvas.h"
 #include "ui/window/player.h"
 #include "ui/window/pose_canvas.h"
+#include "ui/window/text_of.h"
 #include "ui/window/timeline.h"
 
 namespace poselift {
@@ -31,10 +32,6 @@ namespace {
 
 constexpr double kZoomStep = 1.25;
 constexpr int kLong_ms = 15000;  // a message stays
-
-QString TextOf(std::string_view text) {
-  return QString::fromUtf8(text.data(), static_cast<int>(text.size()));
-}
 
 double Now_s() { return static_cast<double>(QDateTime::currentMSecsSinceEpoch()) / 1e3; }
 

@@ -16,16 +16,13 @@
 #include "lift/lifted_files.h"
 #include "ui/window/camera_dialog.h"
 #include "ui/window/main_window.h"
+#include "ui/window/text_of.h"
 #include "ui/window/welcome.h"
 
 namespace poselift {
 namespace {
 
 constexpr int kLong_ms = 15000;  // a message stays
-
-QString TextOf(std::string_view text) {
-  return QString::fromUtf8(text.data(), static_cast<int>(text.size()));
-}
 
 }  // namespace
 
