@@ -148,6 +148,7 @@ void LabelSession::GoToFrame(size_t index) {
   drag_.reset();
   hovered_.reset();
   between_.reset();
+  chosen_in_cam_m_.reset();
   frame_index_ = std::min(index, labels().frames.size() - 1);
   person_index_ =
       std::min(person_index_, std::max<size_t>(labels().frames[frame_index_].people.size(), 1) - 1);
@@ -233,7 +234,8 @@ std::string LabelSession::Status() const {
                               ? "filled for want of labels"
                               : fmt::format("{:.1f} px", MotionPose()->reprojection_rms_px));
   else if (const LiftedPose* lifted = pose())
-    status += fmt::format("   pose {} of {}", pose_index_ + 1, result_.poses.size()) +
+    status += fmt::format("   pose {} of {}{}", pose_index_ + 1, result_.poses.size(),
+                          pose_index_ > 0 ? ", not kept" : "") +
               (lifted->reprojection_rms_px < 0.0
                    ? std::string()
                    : fmt::format(", {:.1f} px", lifted->reprojection_rms_px));

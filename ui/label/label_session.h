@@ -167,6 +167,7 @@ class LabelSession {
   PersonRef Ref() const;  // the person at hand; a new id for one that is not there yet
   void Apply(LabelEdit edit);
   void Ask();
+  void ShowWhatWasChosen();
   void Advance();
   bool HasPerson() const { return person_index_ < labels().frames[frame_index_].people.size(); }
   bool HasLabelAtHand() const;
@@ -240,6 +241,9 @@ class LabelSession {
   Observation asked_observation_, observation_;
   LiftResult result_;
   size_t pose_index_ = 0;
+  // What was chosen, or dragged in space: of the poses of the labels that come then, the nearest is
+  // shown. Nothing where the best is.
+  std::optional<Pose3> chosen_in_cam_m_;
   // The last members: their threads use the others.
   PoseSolver solver_;
   BackgroundJob<GuessedLabels> follow_job_;

@@ -138,7 +138,10 @@ bool LabelSession::DoOnPerson(Action action) {
         Apply(CopyPerson(labels(), before, frame_index_));
       return true;
     case Action::kNextPose:
-      if (!result_.poses.empty()) pose_index_ = (pose_index_ + 1) % result_.poses.size();
+      if (result_.poses.empty()) return true;
+      pose_index_ = (pose_index_ + 1) % result_.poses.size();
+      chosen_in_cam_m_.reset();
+      if (pose_index_ > 0) chosen_in_cam_m_ = pose()->joints_in_cam_m;
       return true;
     default:
       return false;
@@ -156,6 +159,7 @@ bool LabelSession::DoOnProject(Action action) {
     case Action::kUndo:
     case Action::kRedo:
       drag_.reset();
+      chosen_in_cam_m_.reset();
       action == Action::kUndo ? project_->Undo() : project_->Redo();
       if (labels().frames.empty()) return true;
       if (frame_index_ >= labels().frames.size()) GoToFrame(frame_index_);  // it is no more there

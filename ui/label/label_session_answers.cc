@@ -13,6 +13,13 @@ namespace {
 
 constexpr uint64_t kNone = std::numeric_limits<uint64_t>::max();
 
+size_t NearestPose(const std::vector<LiftedPose>& poses, const Pose3& to_m) {
+  const auto nearest = std::ranges::min_element(poses, {}, [&](const LiftedPose& pose) {
+    return (pose.joints_in_cam_m - to_m).squaredNorm();
+  });
+  return static_cast<size_t>(nearest - poses.begin());
+}
+
 }  // namespace
 
 void LabelSession::Ask() {
@@ -20,6 +27,7 @@ void LabelSession::Ask() {
   Observation observation;
   if (person_index_ < frame.people.size())
     observation = Observe(frame.people[person_index_], *layout_);
+  if (asked_person_ != person_index_) chosen_in_cam_m_.reset();
   const std::scoped_lock lock(mutex_);
   asked_observation_ = observation;
   if (is_playing_ && ShowsMotion()) {
@@ -45,8 +53,18 @@ bool LabelSession::TakeAnswer() {
   observation_ = std::move(waiting_->observation);
   answered_ = waiting_->number;
   waiting_.reset();
-  pose_index_ = 0;
+  ShowWhatWasChosen();
   return true;
+}
+
+// While a drag goes on its pose is followed; once what comes is the best again, nothing is chosen.
+void LabelSession::ShowWhatWasChosen() {
+  const bool is_dragged = drag_ && drag_->edit;
+  const bool is_chosen = chosen_in_cam_m_ || (is_dragged && drag_->pose);
+  pose_index_ = chosen_in_cam_m_ ? NearestPose(result_.poses, *chosen_in_cam_m_) : 0;
+  chosen_in_cam_m_.reset();
+  if (is_chosen && pose() && (is_dragged || pose_index_ > 0))
+    chosen_in_cam_m_ = pose()->joints_in_cam_m;
 }
 
 void LabelSession::WaitUntilSolved() {

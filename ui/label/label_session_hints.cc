@@ -46,6 +46,7 @@ bool LabelSession::DoHint(Action action) {
       nearer_ = landmark_;
       return true;
     case Action::kForgetHints:
+      chosen_in_cam_m_.reset();
       if (HasPerson()) Apply(RemoveHints(labels(), Ref()));
       return true;
     default:
@@ -97,7 +98,9 @@ std::vector<LabelHint> LabelSession::Hints() const {
 }
 
 void LabelSession::Give(std::vector<LabelHint> hints) {
-  if (!hints.empty() && HasPerson()) Apply(GiveHints(labels(), Ref(), hints));
+  if (hints.empty() || !HasPerson()) return;
+  chosen_in_cam_m_.reset();  // the hints say it
+  Apply(GiveHints(labels(), Ref(), hints));
 }
 
 }  // namespace poselift

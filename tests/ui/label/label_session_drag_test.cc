@@ -4,6 +4,7 @@
 // Real: the sample picture's labels on disk, the dictionary that ships. Checked of drags beside
 // labels, in the picture and in space: the pose answers on the way, from the pose before alone, and
 // once the mouse lets go it is what a lift of the labels by itself gives, to the last bit.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,6 +18,8 @@
 
 namespace poselift {
 namespace {
+
+using ::testing::HasSubstr;
 
 class LabelSessionDrag : public ::testing::Test {
  protected:
@@ -40,6 +43,9 @@ class LabelSessionDrag : public ::testing::Test {
   size_t Handle(std::string_view name) const {
     const auto found = std::ranges::find(session_->handles(), name, &PoseHandle::name);
     return static_cast<size_t>(found - session_->handles().begin());
+  }
+  double Distance_m(const Pose3& pose_m) const {
+    return (session_->pose()->joints_in_cam_m - pose_m).norm();
   }
   void ExpectTheBestOfAllViews() const {
     const LiftResult full = lifter_.LiftPhoto(Observe(Person(), session_->layout()));
@@ -85,6 +91,47 @@ TEST_F(LabelSessionDrag, OfAJointInSpaceEndsInTheBestOfAllViews) {
     session_->WaitUntilSolved();
     ExpectTheBestOfAllViews();
   }
+}
+
+// What is chosen is no longer the best of all views, but the nearest of its alternatives.
+TEST_F(LabelSessionDrag, OfALabelFollowsTheChosenAlternativeAndStaysWithIt) {
+  ASSERT_GT(session_->result().poses.size(), 1U);
+  const Pose3 best_m = session_->pose()->joints_in_cam_m;
+  session_->Do(Action::kNextPose);
+  const Pose3 chosen_m = session_->pose()->joints_in_cam_m;
+  const Eigen::Vector2d from_px = Place_px("left_wrist");
+  session_->Press(from_px, 8.0);
+  for (int step = 1; step <= 4; ++step) {
+    session_->Move(from_px + Eigen::Vector2d(-step, step));
+    session_->WaitUntilSolved();
+    EXPECT_LT(Distance_m(chosen_m), Distance_m(best_m));
+  }
+  session_->Release();
+  session_->WaitUntilSolved();
+  ExpectTheBestOfAllViews();
+  EXPECT_GT(session_->pose_index(), 0U);
+  EXPECT_LT(Distance_m(chosen_m), Distance_m(best_m));
+  EXPECT_THAT(session_->Status(), HasSubstr(", not kept"));
+  session_->Do(Action::kNudgeLeft);  // an edit that is no drag
+  session_->WaitUntilSolved();
+  EXPECT_LT(Distance_m(chosen_m), Distance_m(best_m));
+  session_->Do(Action::kUndo);
+  session_->WaitUntilSolved();
+  EXPECT_EQ(session_->pose_index(), 0U);
+}
+
+TEST_F(LabelSessionDrag, OfAJointInSpaceEndsInTheNearestPoseOfAllViews) {
+  session_->Do(Action::kNextPose);
+  const size_t wrist = Handle("right_wrist");
+  const Eigen::Vector3d from_m = session_->handles()[wrist].In(session_->pose()->joints_in_cam_m);
+  ASSERT_TRUE(session_->PressHandle(wrist, PoseDrag::Way::kFree));
+  session_->MoveHandle(from_m + Eigen::Vector3d(0.02, 0.0, 0.02));
+  session_->WaitUntilSolved();
+  const Pose3 followed_m = session_->pose()->joints_in_cam_m;
+  session_->Release();
+  session_->WaitUntilSolved();
+  for (const LiftedPose& other : session_->result().poses)
+    EXPECT_LE(Distance_m(followed_m), (other.joints_in_cam_m - followed_m).norm());
 }
 
 TEST_F(LabelSessionDrag, BackToWhereItBeganLeavesThePoseAsItWas) {
