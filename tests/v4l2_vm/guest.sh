@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
 # What capture makes of the kernel's virtual cameras: run by run.sh, in the virtual machine.
-#   guest.sh PROBE POSELIFT CLIP
+#   guest.sh PROBE POSELIFT CLIP [WINDOW_TESTS]
 # vivid, /dev/video0, is a webcam with controls, faults at request among them; what a program
 # writes into v4l2loopback, /dev/video10, comes out of it as from a camera. PROBE is
-# poselift_capture_probe, CLIP of poselift_make_clip. A line a check; exits with 1 when one failed.
+# poselift_capture_probe, CLIP of poselift_make_clip, WINDOW_TESTS poselift_window_tests, where Qt is
+# installed. A line a check; exits with 1 when one failed.
 set -uo pipefail
 probe=$1
 poselift=$2
 clip=$3
+window_tests=${4-}
 camera=/dev/video0
 loopback=/dev/video10
 
@@ -309,6 +311,14 @@ check_tags_are_tracked() {
     stream=nb_read_frames -of csv=p=0 run/video.mkv | tr -d ,) == frames))
 }
 
+check_the_window_watches_a_camera() {
+  [[ -n $window_tests ]] || { echo "there is no window without Qt" >skipped && return; }
+  write MJPG 640x480 "$clip"/*.jpg
+  POSELIFT_CAMERA=$loopback POSELIFT_CAMERA_CLIP=$clip QT_QPA_PLATFORM=offscreen \
+    "$window_tests" --gtest_filter='LiveCamera.*' >out 2>err
+  has 'PASSED  . 1 test'
+}
+
 check_a_camera_is_examined() {
   control gain_automatic=1
   "$poselift" doctor $camera --size 640x480 --rate 25 --seconds 1 --json doctor.json >out 2>err
@@ -381,5 +391,6 @@ check damaged MJPG is told frame by frame
 check the format of a writer is taken as it is
 check a camera that stops sending is told
 check tags are tracked
+check the window watches a camera
 check a camera is calibrated
 ((failures == 0)) || { echo "$failures checks failed"; exit 1; }
