@@ -32,7 +32,19 @@ bool AnyUsable(const LiftedLabels& lifted) {
   return false;
 }
 
+bool IsCut(const FrameLabels& before, const FrameLabels& behind) {
+  return (before.frame || behind.frame) && before.image != behind.image;
+}
+
 }  // namespace
+
+FrameSpan FramesOfVideo(const Labels& labels, size_t frame) {
+  const auto& frames = labels.frames;
+  size_t first = frame, last = frame;
+  while (first > 0 && !IsCut(frames[first - 1], frames[first])) --first;
+  while (last + 1 < frames.size() && !IsCut(frames[last], frames[last + 1])) ++last;
+  return {static_cast<int>(first), static_cast<int>(last)};
+}
 
 double FrameTime_s(const Labels& labels, double fps) {
   const auto& frames = labels.frames;
@@ -48,6 +60,9 @@ std::string WhyFramesAlone(const Labels& labels) {
     return frames.size() > 1 ? "" : "found one key frame, wanted at least 2 to make a motion of";
   if (frames.size() <= 2)
     return fmt::format("found {} frames, wanted at least 3 to make a motion of", frames.size());
+  if (const FrameSpan video = FramesOfVideo(labels, 0); video.NumFrames() < std::ssize(frames))
+    return fmt::format("found frames of several videos, {} and {}, wanted those of one",
+                       frames.front().image, frames[static_cast<size_t>(video.NumFrames())].image);
   const auto untimed = std::ranges::find_if(
       frames, [](const FrameLabels& frame) { return !frame.time_s.has_value(); });
   if (untimed != frames.end())

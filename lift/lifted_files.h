@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "lift/frame_span.h"
 #include "lift/lift_labels.h"
 #include "src/labels.h"
 #include "src/progress.h"
@@ -17,9 +18,12 @@ namespace poselift {
 // The time between frames: from their times where they have them, else by fps.
 double FrameTime_s(const Labels& labels, double fps);
 
+// The frames around this one that are of its video, or of none as it is; there must be one.
+FrameSpan FramesOfVideo(const Labels& labels, size_t frame);
+
 // Why each frame is lifted by itself, in words; empty when the frames are those of one motion: more
-// than two, all with times, no longer apart than SequenceLifter::kLongestFrameTime_s; or key frames
-// (key_frames.h). Times that do not grow are found by the lifter.
+// than two, of one video, all with times, no longer apart than SequenceLifter::kLongestFrameTime_s;
+// or key frames (key_frames.h). Times that do not grow are found by the lifter.
 std::string WhyFramesAlone(const Labels& labels);
 
 // What `lift` leaves in a folder, but pictures: poses.json, angles.csv, of one motion

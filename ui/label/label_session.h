@@ -225,8 +225,8 @@ class LabelSession {
 
   std::shared_ptr<const PersonMotion> motion_;
   std::uint64_t num_motions_ = 0;
-  mutable std::vector<std::uint64_t> marks_;  // LabelMarks of the labels' state and person
-  mutable std::pair<std::uint64_t, int> marks_of_;
+  mutable std::vector<std::uint64_t> marks_;  // LabelMarks of the labels' state and the motion
+  mutable std::pair<std::uint64_t, std::uint64_t> marks_of_;
   bool is_playing_ = false;
   double key_fps_ = KeyTimes::kFps;
   std::optional<int> between_;  // the number of a frame that is no key frame, or is played

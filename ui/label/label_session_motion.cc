@@ -4,6 +4,7 @@
 // The frames of the person at hand as one motion.
 #include <algorithm>
 
+#include "src/translated.h"
 #include "ui/label/label_session.h"
 
 namespace poselift {
@@ -21,9 +22,9 @@ int LabelSession::PersonOfMotion() const {
 bool LabelSession::DoMotion(Action action) {
   switch (action) {
     case Action::kSmoothMotion:
-      motion_job_.Start([&lifter = lifter_, labels = labels(),
-                         id = PersonOfMotion()](const ProgressFn& progress) {
-        return LiftPersonAsMotion(lifter, labels, id, progress);
+      motion_job_.Start([&lifter = lifter_, labels = labels(), id = PersonOfMotion(),
+                         frame = frame_index_](const ProgressFn& progress) {
+        return LiftPersonAsMotion(lifter, labels, id, frame, progress);
       });
       return true;
     case Action::kShowMotion:
@@ -52,7 +53,7 @@ bool LabelSession::TakeMotion() {
   if (!motion) return false;
   // One that could not be made does not take away the one before.
   if (!motion->HasPoses() && motion_ && motion_->HasPoses()) {
-    notice_ = "no motion: " + motion->message;
+    notice_ = Translated("no motion: {}", motion->message);
     return true;
   }
   motion->number = ++num_motions_;
@@ -62,9 +63,9 @@ bool LabelSession::TakeMotion() {
 
 // What the motion would be made of now; only when labels have changed since it was asked last.
 const std::vector<std::uint64_t>& LabelSession::MarksOfMotion() const {
-  const std::pair now(project_->history().state(), motion_->person_id);
+  const std::pair now(project_->history().state(), motion_->number);
   if (marks_.empty() || marks_of_ != now) {
-    marks_ = LabelMarks(labels(), motion_->person_id);
+    marks_ = LabelMarks(labels(), motion_->person_id, motion_->video);
     marks_of_ = now;
   }
   return marks_;

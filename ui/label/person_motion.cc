@@ -60,16 +60,18 @@ void AddPerson(const PersonLabels& person, Mark* mark) {
 void ReadAngles(PersonMotion* motion) {
   const auto& frames = motion->lifted.poses.frames;
   const double unknown = std::numeric_limits<double>::quiet_NaN();
-  motion->times_s = Eigen::VectorXd::Constant(std::ssize(frames), unknown);
+  const auto first = static_cast<size_t>(motion->video.first);
+  const auto num_columns = static_cast<Eigen::Index>(first + frames.size());
+  motion->times_s = Eigen::VectorXd::Constant(num_columns, unknown);
   motion->angles_deg = motion->angles_sigma_deg =
-      Eigen::MatrixXd::Constant(std::ssize(JointAngles()), std::ssize(frames), unknown);
-  motion->is_filled.assign(frames.size(), false);
+      Eigen::MatrixXd::Constant(std::ssize(JointAngles()), num_columns, unknown);
+  motion->is_filled.assign(first + frames.size(), false);
   for (size_t f = 0; f < frames.size(); ++f) {
-    const auto column = static_cast<Eigen::Index>(f);
+    const auto column = static_cast<Eigen::Index>(first + f);
     motion->times_s[column] = frames[f].time_s.value_or(unknown);
     if (frames[f].people.empty()) continue;
     const PersonPose& person = frames[f].people.front();
-    motion->is_filled[f] = person.status == kFilledStatus;
+    motion->is_filled[first + f] = person.status == kFilledStatus;
     for (size_t a = 0; a < person.angles_deg.size(); ++a)
       motion->angles_deg(static_cast<Eigen::Index>(a), column) = person.angles_deg[a].second;
     for (size_t a = 0; a < person.angles_sigma_deg.size(); ++a)
@@ -81,8 +83,11 @@ void ReadAngles(PersonMotion* motion) {
 }  // namespace
 
 const LiftedPose* PersonMotion::PoseOf(size_t frame) const {
-  if (frame >= lifted.results.size() || lifted.results[frame].empty()) return nullptr;
-  const LiftResult& result = lifted.results[frame].front();
+  const auto first = static_cast<size_t>(video.first);
+  if (frame < first || frame - first >= lifted.results.size()) return nullptr;
+  const auto& people = lifted.results[frame - first];
+  if (people.empty()) return nullptr;
+  const LiftResult& result = people.front();
   return result.IsUsable() ? &result.poses.front() : nullptr;
 }
 
@@ -93,9 +98,11 @@ double PersonMotion::Sigma_deg(size_t frame) const {
                    static_cast<double>(angles_sigma_deg.rows()));
 }
 
-Labels OnlyPerson(const Labels& labels, int person_id) {
+Labels OnlyPerson(const Labels& labels, int person_id, const FrameSpan& frames) {
   const bool are_keys = AreKeyFrames(labels);  // whose pins say enough
   Labels alone = labels;
+  alone.frames.resize(static_cast<size_t>(frames.last) + 1);
+  alone.frames.erase(alone.frames.begin(), alone.frames.begin() + frames.first);
   for (FrameLabels& frame : alone.frames)
     std::erase_if(frame.people, [&](const PersonLabels& other) {
       return other.id != person_id || (other.landmarks.empty() && !are_keys);
@@ -103,16 +110,18 @@ Labels OnlyPerson(const Labels& labels, int person_id) {
   return WithPeopleBetween(alone);
 }
 
-std::vector<std::uint64_t> LabelMarks(const Labels& labels, int person_id) {
-  std::vector<std::uint64_t> marks;
-  marks.reserve(labels.frames.size());
-  for (const FrameLabels& frame : labels.frames) {
+std::vector<std::uint64_t> LabelMarks(const Labels& labels, int person_id,
+                                      const FrameSpan& frames) {
+  std::vector<std::uint64_t> marks(labels.frames.size(), 0);
+  const auto end = std::min(static_cast<size_t>(frames.last) + 1, marks.size());
+  for (auto f = static_cast<size_t>(frames.first); f < end; ++f) {
+    const FrameLabels& frame = labels.frames[f];
     Mark mark;
     mark.Add(frame.time_s.value_or(-1.0));
     mark.Add(frame.frame.value_or(-1));
     for (const PersonLabels& person : frame.people)
       if (person.id == person_id) AddPerson(person, &mark);
-    marks.push_back(mark.value());
+    marks[f] = mark.value();
   }
   return marks;
 }
@@ -127,10 +136,12 @@ LiftedLabels LiftAsMotion(const PhotoLifter& lifter, const Labels& labels,
 }
 
 PersonMotion LiftPersonAsMotion(const PhotoLifter& lifter, const Labels& labels, int person_id,
-                                const ProgressFn& progress) {
-  PersonMotion motion{.person_id = person_id, .label_marks = LabelMarks(labels, person_id)};
+                                size_t frame, const ProgressFn& progress) {
+  const FrameSpan video = FramesOfVideo(labels, frame);
+  PersonMotion motion{
+      .person_id = person_id, .video = video, .label_marks = LabelMarks(labels, person_id, video)};
   try {
-    motion.lifted = LiftAsMotion(lifter, OnlyPerson(labels, person_id), progress);
+    motion.lifted = LiftAsMotion(lifter, OnlyPerson(labels, person_id, video), progress);
   } catch (const InputError& error) {
     motion.message = error.what();
     return motion;
