@@ -179,22 +179,27 @@ std::vector<int> UnmetHints(const std::vector<JointRelation>& relations,
   return unmet;
 }
 
-std::string Describe(const LabelHint& hint) {
+HintWords WordsOf(const LabelHint& hint) {
   switch (hint.kind) {
     case Kind::kNearer:
-      return fmt::format("{} nearer than {}", hint.joint, hint.other);
+      return {"{} nearer than {}", hint.joint, hint.other};
     case Kind::kTowardsCamera:
-      return fmt::format("the bone to {} towards the camera", hint.joint);
+      return {"the bone to {} towards the camera", hint.joint};
     case Kind::kAwayFromCamera:
-      return fmt::format("the bone to {} away from the camera", hint.joint);
+      return {"the bone to {} away from the camera", hint.joint};
     case Kind::kOnFloor:
-      return fmt::format("{} on the floor", hint.joint);
+      return {"{} on the floor", hint.joint};
     case Kind::kHeight:
-      return fmt::format("{} m tall", hint.metres_m.value_or(0.0));
+      return {"{} m tall", fmt::format("{}", hint.metres_m.value_or(0.0))};
     case Kind::kPin:
-      return fmt::format("{} pinned", hint.joint);
+      return {"{} pinned", hint.joint};
   }
-  return "";
+  return {};
+}
+
+std::string Describe(const LabelHint& hint) {
+  const HintWords words = WordsOf(hint);
+  return fmt::format(fmt::runtime(words.english), words.first, words.second);
 }
 
 }  // namespace poselift

@@ -63,6 +63,12 @@ std::string WhatIsWrongWith(const LabelHint& hint, const Layout& layout);
 std::vector<int> UnmetHints(const std::vector<JointRelation>& relations,
                             const Pose3& joints_in_cam_m);
 
+// A hint in words: a format of fmt and the names, or the number, that it takes.
+struct HintWords {
+  const char* english = "";
+  std::string first = {}, second = {};
+};
+HintWords WordsOf(const LabelHint& hint);
 // "left_wrist nearer than right_wrist", for messages.
 std::string Describe(const LabelHint& hint);
 

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "src/translated.h"
+
 namespace poselift {
 namespace {
 
@@ -52,7 +54,7 @@ LabelEdit AddKeyFrame(const Labels& labels, const KeyTimes& times, int number,
   now.numbers.insert(now.numbers.begin() + static_cast<std::ptrdiff_t>(at), number);
   MakeRoom(&now.numbers);
   LabelEdit edit;
-  edit.name = fmt::format("add key frame {}", at + 1);
+  edit.name = Translated("add key frame {}", at + 1);
   // Frames are put behind the last one: all from here on move up by one place.
   FrameLabels added = labels.frames.back();
   if (at == labels.frames.size()) {
@@ -72,11 +74,11 @@ LabelEdit AddKeyFrame(const Labels& labels, const KeyTimes& times, int number,
 
 LabelEdit RemoveKeyFrame(const Labels& labels, const KeyTimes& times, size_t key) {
   CheckKeyFrames(labels);
-  if (labels.frames.size() < 2) throw std::invalid_argument("the last key frame stays");
+  if (labels.frames.size() < 2) throw std::invalid_argument(Translated("the last key frame stays"));
   KeyTimes now = times;
   now.numbers.erase(now.numbers.begin() + static_cast<std::ptrdiff_t>(key));
   LabelEdit edit;
-  edit.name = fmt::format("remove key frame {}", key + 1);
+  edit.name = Translated("remove key frame {}", key + 1);
   for (size_t f = key; f + 1 < labels.frames.size(); ++f)
     edit.people[f] = labels.frames.at(f + 1).people;
   PutTimes(labels, now, &edit);
@@ -97,7 +99,7 @@ LabelEdit MoveKeyFrame(const Labels& labels, KeyTimes times, size_t key, int num
   for (size_t k = key; k < numbers.size(); ++k)
     if (k == key || along == Along::kAllBehind) numbers[k] += by;
   LabelEdit edit;
-  edit.name = fmt::format("move key frame {}", key + 1);
+  edit.name = Translated("move key frame {}", key + 1);
   edit.merge_key = edit.name;
   if (by != 0) PutTimes(labels, times, &edit);
   return edit;
@@ -110,7 +112,7 @@ LabelEdit ChangeKeyRate(const Labels& labels, const KeyTimes& times, double fps)
     number = static_cast<int>(std::lround(times.Time_s(number) * fps));
   MakeRoom(&now.numbers);
   LabelEdit edit;
-  edit.name = fmt::format("{:g} frames a second", fps);
+  edit.name = Translated("{:g} frames a second", fps);
   edit.merge_key = "frames a second";
   PutTimes(labels, now, &edit);
   return edit;

@@ -167,8 +167,4 @@ KeyMap KeyMap::Read(const std::filesystem::path& path) {
   return map;
 }
 
-std::string KeyMap::Text(Action action) const {
-  return fmt::format("{}", fmt::join(Keys(action), ", "));
-}
-
 }  // namespace poselift

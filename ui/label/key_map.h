@@ -113,8 +113,6 @@ class KeyMap {
   const std::vector<std::string>& Keys(Action action) const {
     return keys_[static_cast<size_t>(action)];
   }
-  // For tooltips: "Right, D"; empty without keys.
-  std::string Text(Action action) const;
 
  private:
   std::vector<std::vector<std::string>> keys_;

@@ -10,9 +10,10 @@
 #include <string>
 #include <utility>
 
-#include "src/joint_relation.h"
 #include "src/joints.h"
 #include "src/layout.h"
+#include "src/translated.h"
+#include "ui/label/in_words.h"
 
 namespace poselift {
 namespace {
@@ -55,8 +56,7 @@ LabelEdit WithPerson(const Labels& labels, size_t frame, PersonLabels person, st
 }
 
 LabelEdit WithLandmark(const Labels& labels, PersonRef ref, LandmarkLabel landmark,
-                       std::string_view verb) {
-  std::string name = fmt::format("{} {}", verb, InWords(landmark.name));
+                       std::string name) {
   PersonLabels person{ref.id, {}};
   if (const PersonLabels* found = FindPerson(labels, ref)) person = *found;
   if (const auto found = FindNamed(person.landmarks, landmark.name);
@@ -107,9 +107,8 @@ const Layout& LayoutOf(const Labels& labels) {
 }
 
 LabelEdit TransformPerson(const Labels& labels, PersonRef ref, const Eigen::Affine2d& new_from_old,
-                          double radius_factor, std::string_view verb) {
+                          double radius_factor, const std::string& name) {
   PersonLabels person = PersonAt(labels, ref);
-  const std::string name = fmt::format("{} person {}", verb, ref.id);
   if (new_from_old.matrix() == Eigen::Affine2d::Identity().matrix()) return {.name = name};
   for (LandmarkLabel& landmark : person.landmarks) {
     landmark.x_px = new_from_old * landmark.x_px;
@@ -125,12 +124,6 @@ Eigen::Affine2d AboutCenter(const PersonLabels& person, const Linear& linear) {
 }
 
 }  // namespace
-
-std::string InWords(std::string_view name) {
-  std::string words(name);
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
-}
 
 const PersonLabels* FindPerson(const Labels& labels, PersonRef ref) {
   const std::vector<PersonLabels>& people = labels.frames.at(ref.frame).people;
@@ -149,7 +142,8 @@ LabelEdit PlaceLandmark(const Labels& labels, PersonRef ref, std::string_view la
                         const Eigen::Vector2d& x_px, LabelState state) {
   if (!LayoutOf(labels).Find(landmark))
     throw std::invalid_argument(fmt::format("no {} in the layout {}", landmark, labels.layout));
-  return WithLandmark(labels, ref, {std::string(landmark), x_px, state, std::nullopt}, "place");
+  return WithLandmark(labels, ref, {std::string(landmark), x_px, state, std::nullopt},
+                      Translated("place {}", InWords(landmark)));
 }
 
 LabelEdit MoveLandmark(const Labels& labels, PersonRef ref, std::string_view landmark,
@@ -158,7 +152,7 @@ LabelEdit MoveLandmark(const Labels& labels, PersonRef ref, std::string_view lan
   moved.x_px = x_px;
   if (moved.state == LabelState::kAbsent) moved.state = LabelState::kVisible;
   moved.radius_px.reset();
-  return WithLandmark(labels, ref, std::move(moved), "move");
+  return WithLandmark(labels, ref, std::move(moved), Translated("move {}", InWords(landmark)));
 }
 
 LabelEdit NudgeLandmark(const Labels& labels, PersonRef ref, std::string_view landmark,
@@ -167,7 +161,8 @@ LabelEdit NudgeLandmark(const Labels& labels, PersonRef ref, std::string_view la
   nudged.x_px += step_px;
   if (nudged.state == LabelState::kAbsent) nudged.state = LabelState::kVisible;
   nudged.radius_px.reset();
-  LabelEdit edit = WithLandmark(labels, ref, std::move(nudged), "nudge");
+  LabelEdit edit =
+      WithLandmark(labels, ref, std::move(nudged), Translated("nudge {}", InWords(landmark)));
   edit.merge_key = fmt::format("nudge {} of {} in {}", landmark, ref.id, ref.frame);
   return edit;
 }
@@ -176,9 +171,9 @@ LabelEdit SetLandmarkState(const Labels& labels, PersonRef ref, std::string_view
                            LabelState state) {
   LandmarkLabel changed = LandmarkAt(labels, ref, landmark);
   changed.state = state;
-  LabelEdit edit = WithLandmark(labels, ref, std::move(changed), "mark");
-  edit.name += fmt::format(" as {}", kStateNames[static_cast<int>(state)]);
-  return edit;
+  return WithLandmark(labels, ref, std::move(changed),
+                      Translated("mark {} as {}", InWords(landmark),
+                                 Translated(std::string(kStateNames[static_cast<int>(state)]))));
 }
 
 LabelEdit CycleLandmarkState(const Labels& labels, PersonRef ref, std::string_view landmark) {
@@ -190,19 +185,20 @@ LabelEdit RemoveLandmark(const Labels& labels, PersonRef ref, std::string_view l
   LandmarkAt(labels, ref, landmark);
   PersonLabels person = PersonAt(labels, ref);
   person.landmarks.erase(FindNamed(person.landmarks, landmark));
-  return WithPerson(labels, ref.frame, std::move(person), "remove " + InWords(landmark));
+  return WithPerson(labels, ref.frame, std::move(person),
+                    Translated("remove {}", InWords(landmark)));
 }
 
 LabelEdit AddPerson(const Labels& labels, PersonRef ref) {
   if (FindPerson(labels, ref))
     throw std::invalid_argument(fmt::format("person {} is in frame {}", ref.id, ref.frame));
-  return WithPerson(labels, ref.frame, {ref.id, {}}, fmt::format("add person {}", ref.id));
+  return WithPerson(labels, ref.frame, {ref.id, {}}, Translated("add person {}", ref.id));
 }
 
 LabelEdit RemovePerson(const Labels& labels, PersonRef ref) {
   PersonAt(labels, ref);
   LabelEdit edit;
-  edit.name = fmt::format("remove person {}", ref.id);
+  edit.name = Translated("remove person {}", ref.id);
   std::vector<PersonLabels>& people = edit.people[ref.frame];
   people = labels.frames.at(ref.frame).people;
   people.erase(Find(people, ref.id));
@@ -222,13 +218,13 @@ LabelEdit GiveHints(const Labels& labels, PersonRef ref, const std::vector<Label
     person.hints.push_back(hint);
   }
   return WithPerson(labels, ref.frame, std::move(person),
-                    hints.size() == 1 ? "hint: " + InWords(Describe(hints[0]))
-                                      : fmt::format("{} hints", hints.size()));
+                    hints.size() == 1 ? Translated("hint: {}", InWords(hints[0]))
+                                      : Translated("{} hints", hints.size()));
 }
 
 LabelEdit RemoveHint(const Labels& labels, PersonRef ref, size_t index) {
   PersonLabels person = PersonAt(labels, ref);
-  std::string name = "forget: " + InWords(Describe(person.hints.at(index)));
+  std::string name = Translated("forget: {}", InWords(person.hints.at(index)));
   person.hints.erase(person.hints.begin() + static_cast<std::ptrdiff_t>(index));
   return WithPerson(labels, ref.frame, std::move(person), std::move(name));
 }
@@ -237,20 +233,20 @@ LabelEdit RemoveHints(const Labels& labels, PersonRef ref) {
   PersonLabels person = PersonAt(labels, ref);
   person.hints.clear();
   return WithPerson(labels, ref.frame, std::move(person),
-                    fmt::format("forget the hints of person {}", ref.id));
+                    Translated("forget the hints of person {}", ref.id));
 }
 
 LabelEdit SwapSides(const Labels& labels, PersonRef ref) {
   PersonLabels person = PersonAt(labels, ref);
   SwapSidesOf(LayoutOf(labels), &person);
   return WithPerson(labels, ref.frame, std::move(person),
-                    fmt::format("swap left and right of person {}", ref.id));
+                    Translated("swap left and right of person {}", ref.id));
 }
 
 LabelEdit MirrorFrame(const Labels& labels, size_t frame, int width_px) {
   if (width_px < 1) throw std::invalid_argument("a picture to mirror has a width");
   LabelEdit edit;
-  edit.name = "mirror labels";
+  edit.name = Translated("mirror labels");
   edit.people[frame] = labels.frames.at(frame).people;
   for (PersonLabels& person : edit.people[frame]) {
     SwapSidesOf(LayoutOf(labels), &person);
@@ -262,12 +258,13 @@ LabelEdit MirrorFrame(const Labels& labels, size_t frame, int width_px) {
 }
 
 LabelEdit MovePerson(const Labels& labels, PersonRef ref, const Eigen::Vector2d& step_px) {
-  return TransformPerson(labels, ref, Eigen::Affine2d(Eigen::Translation2d(step_px)), 1.0, "move");
+  return TransformPerson(labels, ref, Eigen::Affine2d(Eigen::Translation2d(step_px)), 1.0,
+                         Translated("move person {}", ref.id));
 }
 
 LabelEdit RotatePerson(const Labels& labels, PersonRef ref, double angle_rad) {
   const auto turn = AboutCenter(PersonAt(labels, ref), Eigen::Rotation2Dd(angle_rad));
-  LabelEdit edit = TransformPerson(labels, ref, turn, 1.0, "turn");
+  LabelEdit edit = TransformPerson(labels, ref, turn, 1.0, Translated("turn person {}", ref.id));
   edit.merge_key = fmt::format("turn {} in {}", ref.id, ref.frame);
   return edit;
 }
@@ -275,7 +272,8 @@ LabelEdit RotatePerson(const Labels& labels, PersonRef ref, double angle_rad) {
 LabelEdit ScalePerson(const Labels& labels, PersonRef ref, double factor) {
   if (!(factor > 0.0)) throw std::invalid_argument("a person is scaled by a factor above 0");
   const auto scale = AboutCenter(PersonAt(labels, ref), Eigen::UniformScaling<double>(factor));
-  LabelEdit edit = TransformPerson(labels, ref, scale, factor, "scale");
+  LabelEdit edit =
+      TransformPerson(labels, ref, scale, factor, Translated("scale person {}", ref.id));
   edit.merge_key = fmt::format("scale {} in {}", ref.id, ref.frame);
   return edit;
 }
@@ -292,12 +290,12 @@ Eigen::Vector2d PersonCenter(const PersonLabels& person) {
 
 LabelEdit CopyPerson(const Labels& labels, PersonRef from, size_t to_frame) {
   return WithPerson(labels, to_frame, PersonAt(labels, from),
-                    fmt::format("copy person {} from frame {}", from.id, from.frame + 1));
+                    Translated("copy person {} from frame {}", from.id, from.frame + 1));
 }
 
 LabelEdit PastePerson(const Labels& labels, PersonRef to, PersonLabels person) {
   person.id = to.id;
-  return WithPerson(labels, to.frame, std::move(person), fmt::format("paste person {}", to.id));
+  return WithPerson(labels, to.frame, std::move(person), Translated("paste person {}", to.id));
 }
 
 }  // namespace poselift

@@ -19,9 +19,6 @@ namespace poselift {
 // std::out_of_range; where a person or a landmark must be there and is not, or the landmark is
 // none of the layout, std::invalid_argument.
 
-// A name as people say it: "left_knee" -> "left knee".
-std::string InWords(std::string_view name);
-
 // A person of a frame. The id is the same in all frames of a video.
 struct PersonRef {
   size_t frame = 0;

@@ -13,6 +13,7 @@
 #include "src/io/frame_source.h"
 #include "src/label_propagation.h"
 #include "src/pose_between.h"
+#include "src/translated.h"
 #include "ui/label/frame_pictures.h"
 
 namespace poselift {
@@ -170,7 +171,7 @@ GuessedLabels FollowPerson(const Labels& labels, const std::filesystem::path& di
   RangeSource source(labels, dir, range);
   const Labels followed =
       PropagateLabels(OfPerson(labels, ref.id, keys, range.first), &source, {}, progress);
-  GuessedLabels guesses{ref.id, fmt::format("follow person {}", ref.id), {}};
+  GuessedLabels guesses{ref.id, Translated("follow person {}", ref.id), {}};
   for (size_t f = range.first; f < range.end; ++f)
     if (!IsKeyFrame(labels, {f, ref.id})) guesses.frames[f] = {.id = ref.id, .is_propagated = true};
   for (const FrameLabels& frame : followed.frames) {
@@ -207,7 +208,7 @@ GuessedLabels FollowFromFrameBefore(const Labels& labels, const std::filesystem:
   }
   person.is_propagated = true;
   return {ref.id,
-          fmt::format("follow person {} from the picture before", ref.id),
+          Translated("follow person {} from the picture before", ref.id),
           {{ref.frame, std::move(person)}}};
 }
 
@@ -221,7 +222,7 @@ GuessedLabels PosesBetween(const Labels& labels, PersonRef ref, const PhotoLifte
   const LiftedPose a = PoseOf(labels, {*before, ref.id}, lifter);
   const LiftedPose b = PoseOf(labels, {*behind, ref.id}, lifter);
   const double start_s = Time_s(labels, *before), length_s = Time_s(labels, *behind) - start_s;
-  GuessedLabels guesses{ref.id, fmt::format("poses between of person {}", ref.id), {}};
+  GuessedLabels guesses{ref.id, Translated("poses between of person {}", ref.id), {}};
   for (size_t f = *before + 1; f < *behind; ++f) {
     const double part = (Time_s(labels, f) - start_s) / length_s;
     const WeakCamera camera{
@@ -261,7 +262,7 @@ LabelEdit PutGuesses(const Labels& labels, const GuessedLabels& guesses, bool re
 
 LabelEdit AcceptGuess(const Labels& labels, PersonRef ref) {
   LabelEdit edit;
-  edit.name = fmt::format("accept person {}", ref.id);
+  edit.name = Translated("accept person {}", ref.id);
   std::vector<PersonLabels>& people = edit.people[ref.frame];
   people = labels.frames.at(ref.frame).people;
   for (PersonLabels& person : people)

@@ -5,6 +5,8 @@
 #include <map>
 #include <string>
 
+#include "src/translated.h"
+
 namespace poselift {
 namespace {
 
@@ -61,7 +63,7 @@ LabelEdit RelinkImages(const Labels& labels, const fs::path& labels_dir, const f
   std::map<fs::path, int> times_taken;
   for (const auto& [image, path] : found) ++times_taken[path];
   LabelEdit edit;
-  edit.name = "look for pictures in " + folder.filename().string();
+  edit.name = Translated("look for pictures in {}", folder.filename().string());
   for (const size_t i : missing) {
     const fs::path& path = found.at(labels.frames[i].image);
     if (!path.empty() && times_taken[path] == 1) edit.images[i] = RelativeTo(labels_dir, path);

@@ -7,6 +7,8 @@
 #include <algorithm>
 
 #include "src/input_error.h"
+#include "src/translated.h"
+#include "ui/label/in_words.h"
 #include "ui/label/label_edits.h"
 
 namespace poselift {
@@ -209,43 +211,42 @@ std::string LabelSession::Title() const {
   std::string title = project_->path().filename().string();
   if (!labels().frames.empty() && !labels().frames[frame_index_].image.empty())
     title += ": " + labels().frames[frame_index_].image;
-  if (project_->read_only()) title += " (read only)";
+  if (project_->read_only()) title += Translated(" (read only)");
   return title + (project_->IsSaved() ? " - poselift" : " * - poselift");
 }
 
 std::string LabelSession::Status() const {
-  if (!project_->unsaved_reason().empty()) return "NOT SAVED: " + project_->unsaved_reason();
-  if (labels().frames.empty()) return "no pictures";
+  if (!project_->unsaved_reason().empty())
+    return Translated("NOT SAVED: {}", project_->unsaved_reason());
+  if (labels().frames.empty()) return Translated("no pictures");
   if (const std::string working = Working(); !working.empty()) return working;
   if (!notice_.empty()) return notice_;
   if (nearer_)
-    return fmt::format("click the joint that is farther from the camera than {}",
-                       InWords(layout_->landmarks[static_cast<size_t>(*nearer_)].name));
+    return Translated("click the joint that is farther from the camera than {}",
+                      InWords(layout_->landmarks[static_cast<size_t>(*nearer_)].name));
   if (hovered_ && pose()) return HandleStatus(*hovered_);
   if (IsBetween()) return KeyStatus();
   std::string status =
-      HasKeyFrames()
-          ? KeyStatus()
-          : fmt::format("click: {}",
-                        InWords(layout_->landmarks[static_cast<size_t>(landmark_)].name));
+      HasKeyFrames() ? KeyStatus()
+                     : Translated("click: {}",
+                                  InWords(layout_->landmarks[static_cast<size_t>(landmark_)].name));
   if (ShowsMotion())
-    status += fmt::format("   motion{}, {}", IsMotionCurrent() ? "" : " (out of date)",
-                          motion_->is_filled[frame_index_]
-                              ? "filled for want of labels"
-                              : fmt::format("{:.1f} px", MotionPose()->reprojection_rms_px));
+    status += "   " +
+              (IsMotionCurrent() ? Translated("motion") : Translated("motion (out of date)")) +
+              (motion_->is_filled[frame_index_]
+                   ? Translated(", filled for want of labels")
+                   : fmt::format(", {:.1f} px", MotionPose()->reprojection_rms_px));
   else if (const LiftedPose* lifted = pose())
-    status += fmt::format("   pose {} of {}{}", pose_index_ + 1, result_.poses.size(),
-                          pose_index_ > 0 ? ", not kept" : "") +
+    status += "   " + Translated("pose {} of {}", pose_index_ + 1, result_.poses.size()) +
+              (pose_index_ > 0 ? Translated(", not kept") : std::string()) +
               (lifted->reprojection_rms_px < 0.0
                    ? std::string()
                    : fmt::format(", {:.1f} px", lifted->reprojection_rms_px));
   else
-    status += "   no pose yet: " + result_.message;
+    status += "   " + Translated("no pose yet: {}", Translated(result_.message));
   if (!ShowsMotion() && pose() && !pose()->unmet_hints.empty())
-    status += fmt::format("   {} not met: they contradict each other, or the picture",
-                          pose()->unmet_hints.size() == 1
-                              ? "a hint is"
-                              : fmt::format("{} hints are", pose()->unmet_hints.size()));
+    status += "   " + Translated("hints not met: {}; they contradict each other, or the picture",
+                                 pose()->unmet_hints.size());
   return status;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "src/translated.h"
 #include "ui/label/label_edits.h"
 #include "ui/label/label_session.h"
 #include "ui/label/suggested_frame.h"
@@ -73,7 +74,7 @@ bool LabelSession::DoGo(Action action) {
       if (const auto frame = SuggestedFrame(labels(), PersonOfMotion(), motion()))
         GoToFrame(*frame);
       else
-        notice_ = "all pictures have labels";
+        notice_ = Translated("all pictures have labels");
       return true;
     case Action::kNextJoint:
       GoToLandmark((landmark_ + 1) % count);

@@ -10,6 +10,7 @@
 #include "lift/lifted_files.h"
 #include "src/input_error.h"
 #include "src/io/atomic_file.h"
+#include "src/translated.h"
 #include "ui/label/label_session.h"
 
 namespace poselift {
@@ -58,22 +59,22 @@ void LabelSession::ExportMotion(const fs::path& path) {
 std::optional<fs::path> LabelSession::TakeExported() {
   const auto where = export_job_.Take();
   // Still there for who comes back after a while.
-  if (where) notice_ = "exported to " + where->string();
+  if (where) notice_ = Translated("exported to {}", where->string());
   return where;
 }
 
 std::string LabelSession::Working() const {
   std::string working;
   if (const auto fraction = FollowProgress())
-    working += fmt::format("following the labels: {:.0f} %, ", 100.0 * *fraction);
+    working += Translated("following the labels: {:.0f} %, ", 100.0 * *fraction);
   if (export_job_.IsBusy())
-    working += fmt::format("exporting: {:.0f} %, ", 100.0 * export_job_.Fraction());
-  return working.empty() ? "" : working + "Esc stops it";
+    working += Translated("exporting: {:.0f} %, ", 100.0 * export_job_.Fraction());
+  return working.empty() ? "" : working + Translated("Esc stops it");
 }
 
 void LabelSession::Stop() {
-  if (follow_job_.IsBusy()) notice_ = "stopped: no labels were changed";
-  if (export_job_.IsBusy()) notice_ = "stopped: nothing was exported";
+  if (follow_job_.IsBusy()) notice_ = Translated("stopped: no labels were changed");
+  if (export_job_.IsBusy()) notice_ = Translated("stopped: nothing was exported");
   follow_job_.Stop();
   motion_job_.Stop();
   export_job_.Stop();

@@ -7,6 +7,7 @@
 
 #include "lift/body_proportions.h"
 #include "lift/depth_mirror.h"
+#include "src/translated.h"
 #include "ui/label/label_edits.h"
 #include "ui/label/label_session.h"
 
@@ -57,11 +58,12 @@ bool LabelSession::DoHint(Action action) {
 void LabelSession::FlipLimb(const std::string& joint) {
   const auto limb = LimbOf(joint);
   if (!limb || !pose()) {
-    notice_ = "to flip a limb, choose a joint of an arm or a leg of a pose";
+    notice_ = Translated("to flip a limb, choose a joint of an arm or a leg of a pose");
     return;
   }
   auto hints = HintsToFlip(*limb, pose()->joints_in_cam_m);
-  if (hints.empty()) notice_ = "this limb lies in the picture's plane: there is nothing to flip";
+  if (hints.empty())
+    notice_ = Translated("this limb lies in the picture's plane: there is nothing to flip");
   Give(std::move(hints));
 }
 
@@ -70,7 +72,7 @@ void LabelSession::KeepPose() {
   if (!pose() || result_.poses.size() < 2) return;
   const LiftedPose& other = result_.poses[pose_index_ == 0 ? 1 : 0];
   auto hints = HintsToChoose(pose()->joints_in_cam_m, other.joints_in_cam_m);
-  if (hints.empty()) notice_ = "the poses differ in no limb that a hint can tell apart";
+  if (hints.empty()) notice_ = Translated("the poses differ in no limb that a hint can tell apart");
   Give(std::move(hints));
 }
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "src/translated.h"
 #include "ui/label/label_session.h"
 
 namespace poselift {
@@ -63,7 +64,7 @@ bool LabelSession::DoKeys(Action action) {
         return true;
       case Action::kPosesBetween:
         if (!HasKeyFrames()) return false;
-        notice_ = "the poses between key frames are there: play them";
+        notice_ = Translated("the poses between key frames are there: play them");
         return true;
       case Action::kRemoveFrame:
         CheckIsKey();
@@ -92,7 +93,7 @@ bool LabelSession::DoKeys(Action action) {
 }
 
 void LabelSession::CheckIsKey() const {
-  if (between_) throw std::invalid_argument("this is no key frame: go to one first");
+  if (between_) throw std::invalid_argument(Translated("this is no key frame: go to one first"));
 }
 
 // Between key frames, as the motion is there; on one, as that is.
@@ -143,13 +144,13 @@ void LabelSession::ChangeRate(double fps) {
 std::string LabelSession::KeyStatus() const {
   const KeyTimes keys = Keys();
   const int number = Number();
-  const std::string when = fmt::format("frame {}, {:.2f} s", number, keys.Time_s(number));
+  const std::string when = Translated("frame {}, {:.2f} s", number, keys.Time_s(number));
   if (!between_)
-    return fmt::format("key frame {} of {}, {}", frame_index_ + 1, keys.numbers.size(), when);
-  const char* const where = number < keys.numbers.front()  ? "before the first key frame"
-                            : number > keys.numbers.back() ? "behind the last key frame"
-                                                           : "between key frames";
-  return fmt::format("{}, {}   a key frame that is added here is this pose", when, where);
+    return Translated("key frame {} of {}, {}", frame_index_ + 1, keys.numbers.size(), when);
+  const std::string where = number < keys.numbers.front() ? Translated("before the first key frame")
+                            : number > keys.numbers.back() ? Translated("behind the last key frame")
+                                                           : Translated("between key frames");
+  return Translated("{}, {}   a key frame that is added here is this pose", when, where);
 }
 
 }  // namespace poselift

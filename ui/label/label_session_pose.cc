@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "src/translated.h"
+#include "ui/label/in_words.h"
 #include "ui/label/label_edits.h"
 #include "ui/label/label_session.h"
 
@@ -25,11 +27,12 @@ bool LabelSession::PressHandle(size_t handle, PoseDrag::Way way) {
   const std::vector<LabelHint> hints = Hints();
   if (way == PoseDrag::Way::kByAngles && !is_pelvis && LimbUpTo(pressed.joint).empty()) {
     notice_ =
-        fmt::format("the {} goes with the trunk: drag it without Shift", InWords(pressed.name));
+        Translated("the {} goes with the trunk: drag it without Shift", InWords(pressed.name));
     return false;
   }
   if (is_pelvis && HasLabelsInForce() && std::ranges::none_of(hints, IsFirmPin)) {
-    notice_ = "the labels say where the pelvis is: pin what is to stay before you drag it";
+    notice_ =
+        Translated("the labels say where the pelvis is: pin what is to stay before you drag it");
     return false;
   }
   landmark_ = layout_->Find(pressed.name).value_or(landmark_);
@@ -45,7 +48,7 @@ void LabelSession::MoveHandle(const Eigen::Vector3d& to_in_cam_m) {
   const std::vector<LabelHint> pins = drag_->pose->PinsAt(to_in_cam_m);
   if (pins.empty()) return;
   drag_->edit = GiveHints(labels(), Ref(), pins);
-  drag_->edit->name = "pose " + InWords(drag_->pose->handle().name);
+  drag_->edit->name = Translated("pose {}", InWords(drag_->pose->handle().name));
   Ask();
 }
 
@@ -53,7 +56,7 @@ void LabelSession::TogglePin(size_t handle) {
   if (!pose() || !HasPerson() || drag_ || IsBetween()) return;
   const PoseHandle& toggled = handles_[handle];
   if (toggled.joint == joint::kPelvis) {
-    notice_ = "pins are counted from the pelvis: pin a foot or a hand";
+    notice_ = Translated("pins are counted from the pelvis: pin a foot or a hand");
     return;
   }
   std::vector<LabelHint> others = Hints();
@@ -75,7 +78,8 @@ void LabelSession::TogglePin(size_t handle) {
     if (!was_pinned) pins.push_back(FirmPin(toggled, joints_m, pose()->size));
     edit = GiveHints(labels(), Ref(), pins);
   }
-  edit.name = (was_pinned ? "let go of " : "pin ") + InWords(toggled.name);
+  edit.name = was_pinned ? Translated("let go of {}", InWords(toggled.name))
+                         : Translated("pin {}", InWords(toggled.name));
   Apply(std::move(edit));
 }
 
@@ -102,7 +106,7 @@ bool LabelSession::DoPose(Action action) {
       if (const auto handle = HandleAtHand())
         TogglePin(*handle);
       else
-        notice_ = "this landmark cannot be pinned: choose a joint of the 3D pose";
+        notice_ = Translated("this landmark cannot be pinned: choose a joint of the 3D pose");
       return true;
     default:
       return false;
@@ -112,10 +116,13 @@ bool LabelSession::DoPose(Action action) {
 std::string LabelSession::HandleStatus(size_t handle) const {
   const PoseHandle& hovered = handles_[handle];
   if (hovered.joint == joint::kPelvis)
-    return "drag: the pelvis; legs and pinned joints stay behind, the trunk comes along";
-  return fmt::format("drag: {}{}   with Shift: its limb alone   right button: {}",
-                     InWords(hovered.name), PinnedAt(handle) ? " (pinned)" : "",
-                     PinnedAt(handle) ? "let it go" : "pin it");
+    return Translated(
+        "drag: the pelvis; legs and pinned joints stay behind, the trunk comes along");
+  const std::string name = InWords(hovered.name);
+  return PinnedAt(handle)
+             ? Translated(
+                   "drag: {} (pinned)   with Shift: its limb alone   right button: let it go", name)
+             : Translated("drag: {}   with Shift: its limb alone   right button: pin it", name);
 }
 
 WeakCamera LabelSession::PictureCamera() const {

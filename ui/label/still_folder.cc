@@ -9,6 +9,7 @@
 
 #include "src/input_error.h"
 #include "src/io/image.h"
+#include "src/translated.h"
 
 namespace poselift {
 
@@ -40,7 +41,7 @@ size_t StillFolder::Add(const cv::Mat& bgr, const LabelFn& label) {
   std::vector<LandmarkLabel> landmarks = label ? label(*layout) : std::vector<LandmarkLabel>();
   if (!landmarks.empty()) frame.people.push_back({.id = 0, .landmarks = std::move(landmarks)});
   if (project_) {
-    project_->Apply({.name = "freeze " + frame.image, .added = {std::move(frame)}});
+    project_->Apply({.name = Translated("freeze {}", frame.image), .added = {std::move(frame)}});
   } else {
     CreateLabelsFile(file, {.layout = layout_, .frames = {std::move(frame)}});
     project_ = std::make_unique<LabelProject>(file);

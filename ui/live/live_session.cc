@@ -8,6 +8,8 @@
 #include <exception>
 #include <utility>
 
+#include "src/translated.h"
+
 namespace poselift {
 namespace {
 
@@ -18,16 +20,17 @@ double Now_s() {
 }  // namespace
 
 std::string StatusLine(const LiveStatus& status, const LiveView& view) {
-  if (status.state == LiveStatus::State::kOpening) return "opening ...";
-  std::string line = fmt::format("{:.1f} pictures a second, {} lost, {} not shown", status.rate_hz,
-                                 status.num_lost, status.num_not_shown);
+  if (status.state == LiveStatus::State::kOpening) return Translated("opening ...");
+  std::string line = Translated("{:.1f} pictures a second, {} lost, {} not shown", status.rate_hz,
+                                status.num_lost, status.num_not_shown);
   if (std::isfinite(status.latency_s))
-    line += fmt::format(", {:.0f} ms late", 1e3 * status.latency_s);
+    line += Translated(", {:.0f} ms late", 1e3 * status.latency_s);
   if (status.has_tags)
-    line += fmt::format(", {} tags{}", view.tags.size(), view.pose ? "" : ", no pose yet");
+    line += Translated(", {} tags", view.tags.size()) +
+            (view.pose ? std::string() : Translated(", no pose yet"));
   if (!status.recording.empty())
-    line += fmt::format("; {} recorded to {}", status.num_recorded,
-                        status.recording.filename().string());
+    line += Translated("; {} recorded to {}", status.num_recorded,
+                       status.recording.filename().string());
   return line;
 }
 
@@ -71,7 +74,7 @@ void LiveSession::Run() {
   std::string message;
   try {
     Watch();
-    message = "there are no more pictures";
+    message = Translated("there are no more pictures");
   } catch (const std::exception& error) {
     message = error.what();
   }
@@ -209,7 +212,7 @@ void LiveSession::End(const std::string& message) {
   {
     const std::scoped_lock lock(mutex_);
     if (is_wanted_new_ && !wanted_recording_.empty())
-      status_.recording_message = "nothing was recorded: no picture came after";
+      status_.recording_message = Translated("nothing was recorded: no picture came after");
     status_.state = LiveStatus::State::kEnded;
     status_.message = message + flaw;
     is_told_ = false;

@@ -9,14 +9,28 @@
 #include "ui/window/text_of.h"
 
 namespace poselift {
+namespace {
+
+QString KeysOf(Action action, const KeyMap& keys) {
+  QStringList shown;
+  for (const std::string& key : keys.Keys(action))
+    shown << QKeySequence(QString::fromStdString(key)).toString(QKeySequence::NativeText);
+  return shown.join(", ");
+}
+
+}  // namespace
 
 QString DescriptionOf(const ActionInfo& info) {
   return QCoreApplication::translate("Keys", info.description.data());
 }
 
-QString TipOf(const ActionInfo& info, const KeyMap& keys) {
-  const QString text = DescriptionOf(info), shown = QString::fromStdString(keys.Text(info.action));
+QString TipOf(const QString& text, Action action, const KeyMap& keys) {
+  const QString shown = KeysOf(action, keys);
   return shown.isEmpty() ? text : QString("%1 (%2)").arg(text, shown);
+}
+
+QString TipOf(const ActionInfo& info, const KeyMap& keys) {
+  return TipOf(DescriptionOf(info), info.action, keys);
 }
 
 void SetUp(QAction* item, const ActionInfo& info, const KeyMap& keys) {
@@ -34,8 +48,7 @@ void ShowKeyList(QWidget* window, const KeyMap& keys, bool is_live, const QStrin
   for (const ActionInfo& info : Actions())
     if (info.is_live == is_live)
       text += QString("<tr><td><b>%1</b>&nbsp;&nbsp;</td><td>%2</td></tr>")
-                  .arg(QString::fromStdString(keys.Text(info.action)).toHtmlEscaped(),
-                       DescriptionOf(info));
+                  .arg(KeysOf(info.action, keys).toHtmlEscaped(), DescriptionOf(info));
   text += "</table><p>" + mouse;
   auto* const box =
       new QMessageBox(QMessageBox::NoIcon, QCoreApplication::translate("Keys", "Keys"), text,

@@ -16,6 +16,7 @@ namespace poselift {
 QString DescriptionOf(const ActionInfo& info);
 // "Play or pause (K)"
 QString TipOf(const ActionInfo& info, const KeyMap& keys);
+QString TipOf(const QString& text, Action action, const KeyMap& keys);
 
 // Gives an action its name, its keys, and a tip that tells both what it does and the keys.
 void SetUp(QAction* item, const ActionInfo& info, const KeyMap& keys);

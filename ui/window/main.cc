@@ -25,6 +25,7 @@
 #include "ui/label/label_project.h"
 #include "ui/label/new_pose.h"
 #include "ui/live/live_inputs.h"
+#include "ui/window/language.h"
 #include "ui/window/live_window.h"
 #include "ui/window/main_window.h"
 #include "ui/window/opening.h"
@@ -139,6 +140,7 @@ int main(int argc, char** argv) {
     const poselift::KeyMap keys =
         options.keys.empty() ? poselift::KeyMap() : poselift::KeyMap::Read(options.keys);
     const QApplication application(argc, argv);
+    poselift::SpeakLanguageOf(QLocale());
     if (!options.pose.empty())
       poselift::CreatePoseFile(options.pose, options.layout, dictionary.skeleton);
     else if (options.inputs.empty() && !poselift::AskForInputs(&options))

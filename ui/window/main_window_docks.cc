@@ -16,6 +16,8 @@
 
 #include "src/draw/style.h"
 #include "src/joint_relation.h"
+#include "ui/label/in_words.h"
+#include "ui/label/label_edits.h"
 #include "ui/window/key_frames_box.h"
 #include "ui/window/main_window.h"
 #include "ui/window/picture_canvas.h"
@@ -166,9 +168,8 @@ void MainWindow::ShowJoints() {
   while (joints_->count() < static_cast<int>(layout.landmarks.size())) joints_->addItem("");
   for (size_t l = 0; l < layout.landmarks.size(); ++l) {
     const std::string_view name = layout.landmarks[l].name;
-    QString text = QString("%1 ").arg(l + 1) +
-                   QString::fromUtf8(name.data(), static_cast<int>(name.size())).replace('_', ' ') +
-                   ": " + StateText(person ? LabelSession::Find(*person, name) : nullptr);
+    QString text = QString("%1 ").arg(l + 1) + QString::fromStdString(InWords(name)) + ": " +
+                   StateText(person ? LabelSession::Find(*person, name) : nullptr);
     if (const auto residual_px = session_.Residual_px(name))
       text += tr(", %1 px").arg(*residual_px, 0, 'f', 1);
     QListWidgetItem* const item = joints_->item(static_cast<int>(l));
@@ -184,7 +185,7 @@ void MainWindow::ShowHints() {
   const std::vector<int> unmet =
       session_.pose() ? session_.pose()->unmet_hints : std::vector<int>();
   for (size_t h = 0; h < hints.size(); ++h) {
-    QString text = QString::fromStdString(Describe(hints[h]));
+    QString text = QString::fromStdString(InWords(hints[h]));
     if (std::ranges::count(unmet, static_cast<int>(h)) > 0) text += tr(" (not met)");
     hints_->addItem(text);
     // Of a pose that was dragged there is one a joint: nothing to read.

@@ -15,6 +15,7 @@
 
 #include "src/joint_angles.h"
 #include "ui/window/angle_plot_widget.h"
+#include "ui/window/key_list.h"
 
 namespace poselift {
 namespace {
@@ -60,13 +61,12 @@ QWidget* MotionDock::MakeControls(const KeyMap& keys) {
   auto* const top = new QHBoxLayout;
   ask_ = new QPushButton(box);
   ask_->setObjectName("smooth");
-  ask_->setToolTip(tr("Lift all pictures of the person together (%1)")
-                       .arg(QString::fromStdString(keys.Text(Action::kSmoothMotion))));
+  ask_->setToolTip(
+      TipOf(tr("Lift all pictures of the person together"), Action::kSmoothMotion, keys));
   show_ = new QCheckBox(tr("Show motion"), box);
   show_->setObjectName("shows_motion");
   show_->setAccessibleName(tr("Show the motion instead of each picture by itself"));
-  show_->setToolTip(QString("%1 (%2)").arg(show_->accessibleName(),
-                                           QString::fromStdString(keys.Text(Action::kShowMotion))));
+  show_->setToolTip(TipOf(show_->accessibleName(), Action::kShowMotion, keys));
   top->addWidget(ask_, 1);
   top->addWidget(show_);
   column->addLayout(top);

@@ -9,6 +9,8 @@
 #include <opencv2/core.hpp>
 
 #include "src/draw/style.h"
+#include "ui/label/in_words.h"
+#include "ui/label/label_edits.h"
 #include "ui/label/layout_edges.h"
 #include "ui/window/picture_canvas.h"
 #include "ui/window/strokes.h"
@@ -151,7 +153,7 @@ void PictureCanvas::PaintLabels(QPainter* painter, const PersonLabels& person,
                 label->state == LabelState::kOccluded ? Qt::DotLine : Qt::SolidLine);
     if (is_current)
       painter->drawText(at + QPointF(radius + 4.0, -radius),
-                        QString::fromStdString(label->name).replace('_', ' '));
+                        QString::fromStdString(InWords(label->name)));
   }
   painter->setOpacity(1.0);
 }

@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "src/draw/style.h"
+#include "ui/label/in_words.h"
+#include "ui/label/label_edits.h"
 #include "ui/window/strokes.h"
 
 namespace poselift {
@@ -93,7 +95,7 @@ void PoseCanvas::PaintHandles(QPainter* painter) const {
     painter->setPen(QPen(ColorFrom(palette::kInk), 2.0));
     painter->drawEllipse(at, 1.8 * kMark, 1.8 * kMark);
     painter->drawText(at + QPointF(2.2 * kMark, -kMark),
-                      QString::fromStdString(session_->handles()[h].name).replace('_', ' '));
+                      QString::fromStdString(InWords(session_->handles()[h].name)));
   }
 }
 
