@@ -20,7 +20,8 @@ void Install(const QLocale& locale, const QString& name, const QString& folder) 
 
 // Of the contexts that lupdate takes Translated() for the first that knows the text.
 std::string TranslationOf(const char* english) {
-  for (const char* context : {"poselift", "LabelSession", "LiveSession", "StillFolder", "std"}) {
+  for (const char* context : {"poselift", "poselift::LabelSession", "poselift::LiveSession",
+                              "poselift::StillFolder", "std"}) {
     const QString translated = QCoreApplication::translate(context, english);
     if (translated != english) return translated.toStdString();
   }
