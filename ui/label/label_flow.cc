@@ -209,7 +209,8 @@ GuessedLabels FollowFromFrameBefore(const Labels& labels, const std::filesystem:
   person.is_propagated = true;
   return {ref.id,
           Translated("follow person {} from the picture before", ref.id),
-          {{ref.frame, std::move(person)}}};
+          {{ref.frame, std::move(person)}},
+          true};
 }
 
 GuessedLabels PosesBetween(const Labels& labels, PersonRef ref, const PhotoLifter& lifter) {
@@ -245,13 +246,14 @@ GuessedLabels PosesBetween(const Labels& labels, PersonRef ref, const PhotoLifte
   return guesses;
 }
 
-LabelEdit PutGuesses(const Labels& labels, const GuessedLabels& guesses, bool replace) {
+LabelEdit PutGuesses(const Labels& labels, const GuessedLabels& guesses) {
   LabelEdit edit;
   edit.name = guesses.name;
   for (const auto& [frame, guess] : guesses.frames) {
     const PersonRef ref{frame, guesses.id};
     const PersonLabels* const old = FindPerson(labels, ref);
-    if ((!replace && IsKeyFrame(labels, ref)) || (!old && guess.landmarks.empty())) continue;
+    if ((!guesses.replaces && IsKeyFrame(labels, ref)) || (!old && guess.landmarks.empty()))
+      continue;
     std::vector<PersonLabels>& people = edit.people[frame];
     people = labels.frames.at(frame).people;
     std::erase_if(people, [&](const PersonLabels& person) { return person.id == guesses.id; });

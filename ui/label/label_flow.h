@@ -19,6 +19,7 @@ struct GuessedLabels {
   int id = 0;
   std::string name;                       // of the edit that puts them there
   std::map<size_t, PersonLabels> frames;  // without landmarks: nothing is known there
+  bool replaces = false;                  // what a person said there, too
 };
 
 bool IsKeyFrame(const Labels& labels, PersonRef ref);
@@ -36,8 +37,8 @@ GuessedLabels FollowPerson(const Labels& labels, const std::filesystem::path& di
                            Reach reach, const ProgressFn& progress = {});
 
 // Of the frame before, what has no label there as its 3D pose shows it, moved by the flow from its
-// picture to this one; what the flow loses stays where it was, occluded. Throws InputError when
-// nothing is known of the person there.
+// picture to this one; what the flow loses stays where it was, occluded. Replaces. Throws
+// InputError when nothing is known of the person there.
 GuessedLabels FollowFromFrameBefore(const Labels& labels, const std::filesystem::path& dir,
                                     PersonRef ref, const PhotoLifter& lifter);
 
@@ -46,8 +47,8 @@ GuessedLabels FollowFromFrameBefore(const Labels& labels, const std::filesystem:
 // evenly too. Throws InputError where there are not two, or one cannot be lifted.
 GuessedLabels PosesBetween(const Labels& labels, PersonRef ref, const PhotoLifter& lifter);
 
-// One step. What a person said by now stays, unless it is to be replaced.
-LabelEdit PutGuesses(const Labels& labels, const GuessedLabels& guesses, bool replace = false);
+// One step.
+LabelEdit PutGuesses(const Labels& labels, const GuessedLabels& guesses);
 // Somebody looked, and they are right: a key frame. "accept person 1"
 LabelEdit AcceptGuess(const Labels& labels, PersonRef ref);
 

@@ -177,6 +177,7 @@ class LabelSession {
   bool DoOnProject(Action action);
   bool DoHint(Action action);
   bool DoFlow(Action action);
+  void Follow(BackgroundJob<GuessedLabels>::Work work);
   void Follow(Reach reach);
   bool TakeFollowed();
   void Stop();

@@ -100,12 +100,13 @@ TEST_F(LabelFlowTest, PicturesOfAnotherSizeEndTheRow) {
 }
 
 TEST_F(LabelFlowTest, WhatAPersonSaidStays) {
-  const GuessedLabels guesses = FollowPerson(labels_, dir_, {0, 0}, Reach::kForwards);
+  GuessedLabels guesses = FollowPerson(labels_, dir_, {0, 0}, Reach::kForwards);
   MakeKey(2);
   const LabelEdit edit = PutGuesses(labels_, guesses);
   EXPECT_FALSE(edit.people.contains(2));
   EXPECT_TRUE(edit.people.contains(3));
-  EXPECT_TRUE(PutGuesses(labels_, guesses, true).people.contains(2));
+  guesses.replaces = true;
+  EXPECT_TRUE(PutGuesses(labels_, guesses).people.contains(2));
   ApplyEdit(edit, &labels_);
   EXPECT_FALSE(IsKeyFrame(labels_, {3, 0}));
   ApplyEdit(AcceptGuess(labels_, {3, 0}), &labels_);
@@ -162,6 +163,16 @@ TEST_F(LabelFlowTest, TheSessionFollowsInTheBackgroundAsOneStep) {
   EXPECT_EQ(session.labels().frames[6].people.size(), 1U);
   EXPECT_TRUE(session.Do(Action::kUndo));
   EXPECT_TRUE(session.labels().frames[6].people.empty());
+  session.GoToFrame(1);
+  session.Do(Action::kCopyFollowed);
+  session.WaitUntilFollowed();
+  ASSERT_EQ(session.labels().frames[1].people.size(), 1U);
+  session.GoToLandmark(0);
+  session.Do(Action::kNudgeLeft);
+  const auto nudged_px = session.labels().frames[1].people[0].landmarks[0].x_px;
+  session.Do(Action::kCopyFollowed);  // replaces what a person said
+  session.WaitUntilFollowed();
+  EXPECT_NE(session.labels().frames[1].people[0].landmarks[0].x_px, nudged_px);
   session.GoToFrame(6);
   session.Do(Action::kFollowForwards);
   session.WaitUntilFollowed();
