@@ -319,7 +319,7 @@ TEST_F(PoseDragOnLabels, MetresArePeoplesWhoseHeightIsKnown) {
   const double size = session_->pose()->size;
   ASSERT_LT(size, 0.9);
   session_->TogglePin(Handle("left_wrist"));
-  const LabelHint& pin = session_->Hints().back();
+  const LabelHint pin = session_->Hints().back();
   EXPECT_TRUE(testing::MatrixNear(pin.x_in_cam_m, size * Place_m("left_wrist"), 1e-9));
 }
 
