@@ -359,7 +359,7 @@ check_a_camera_is_calibrated() {
   done
   write MJPG 640x480 "${held[@]}"
   "$poselift" calibrate $loopback --board aprilgrid --target "$clip/board/target.yaml" --lens none \
-    --size 640x480 --seconds 40 --no-picture --out found.yaml --json report.json >out 2>err
+    --size 640x480 --seconds 22 --no-picture --out found.yaml --json report.json >out 2>err
   has 'camera: asked for 640x480 .*, got 640x480 MJPG' err
   grep 'focal\|rms over' out >told
   local fx

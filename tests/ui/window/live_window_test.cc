@@ -20,6 +20,8 @@
 #include <QTimer>
 #include <QWheelEvent>
 #include <cerrno>
+#include <chrono>
+#include <thread>
 
 #include "lift/default_dictionary.h"
 #include "lift/dictionary_file.h"
@@ -70,6 +72,18 @@ class LiveWindowTest : public ::testing::Test {
   }
   void OpenSample() {
     Open([this] { return OpenLive(sample_, lifter_); });
+  }
+  // Whoever wears the tags stands still before a camera, as long as it takes.
+  void OpenWearer() {
+    const std::string jpeg =
+        testing::AsJpeg(VideoFile(SourcePath("samples/tags/clip.mp4")).Next()->bgr);
+    device_.formats = {{kFourccMjpg, "mjpg", {{{1280, 720}, {30.0}}}}};
+    device_.frame = [jpeg](int) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(30));
+      return FakeBuffer{jpeg};
+    };
+    sample_.view.input = device_.path;
+    Open([this] { return OpenLive(sample_, lifter_, &device_); });
   }
   void OpenDevice() {
     Open([this] { return OpenLive(watched_, lifter_, &device_); });
@@ -125,7 +139,7 @@ TEST_F(LiveWindowTest, ShowsTagsAndPoseAndAFrozenFrameIsLabelledFromThem) {
 }
 
 TEST_F(LiveWindowTest, RecordsAndStops) {
-  OpenSample();
+  OpenWearer();
   ASSERT_TRUE(WaitForPose()) << Problem();
   QTest::keyClick(window_.get(), Qt::Key_R);
   EXPECT_EQ(Find<QAction>("record")->text(), "Stop recording");

@@ -191,7 +191,7 @@ TEST_F(Screenshots, OfAMotion) {
   window.resize(1400, 900);
   window.show();
   window.findChild<QAction*>("smooth_motion")->trigger();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().motion() != nullptr; }, 60000));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().motion() != nullptr; }, 180000));
   auto* const angles = window.findChild<QListWidget*>("angles");
   for (const QString name : {"left_hip.flexion", "left_elbow.flexion"})
     angles->findItems(name, Qt::MatchExactly).front()->setCheckState(Qt::Checked);

@@ -19,11 +19,11 @@ cd "$folder"
 # -noreset: it would begin anew, and drop who connects, whenever its last client leaves.
 Xvfb -noreset -displayfd 3 -screen 0 1400x900x24 3>display >xvfb.log 2>&1 &
 trap 'jobs -p | xargs -r kill -9 2>/dev/null || true' EXIT
-# await WHAT COMMAND...: within 20 seconds.
+# await WHAT COMMAND...: within a minute.
 await() {
   local what=$1
   shift
-  for _ in {1..200}; do
+  for _ in {1..600}; do
     if "$@" >/dev/null 2>&1; then return; fi
     sleep 0.1
   done
