@@ -9,6 +9,7 @@
 
 #include "src/input_error.h"
 #include "src/nearest_names.h"
+#include "src/translated.h"
 
 namespace poselift {
 namespace {
@@ -182,17 +183,17 @@ std::vector<int> UnmetHints(const std::vector<JointRelation>& relations,
 HintWords WordsOf(const LabelHint& hint) {
   switch (hint.kind) {
     case Kind::kNearer:
-      return {"{} nearer than {}", hint.joint, hint.other};
+      return {ToTranslate("{} nearer than {}"), hint.joint, hint.other};
     case Kind::kTowardsCamera:
-      return {"the bone to {} towards the camera", hint.joint};
+      return {ToTranslate("the bone to {} towards the camera"), hint.joint};
     case Kind::kAwayFromCamera:
-      return {"the bone to {} away from the camera", hint.joint};
+      return {ToTranslate("the bone to {} away from the camera"), hint.joint};
     case Kind::kOnFloor:
-      return {"{} on the floor", hint.joint};
+      return {ToTranslate("{} on the floor"), hint.joint};
     case Kind::kHeight:
-      return {"{} m tall", fmt::format("{}", hint.metres_m.value_or(0.0))};
+      return {ToTranslate("{} m tall"), fmt::format("{}", hint.metres_m.value_or(0.0))};
     case Kind::kPin:
-      return {"{} pinned", hint.joint};
+      return {ToTranslate("{} pinned"), hint.joint};
   }
   return {};
 }

@@ -2,22 +2,35 @@
 // Copyright (c) 2026 the poselift authors
 #include "src/joints.h"
 
+#include "src/translated.h"
+
 namespace poselift {
 
 const std::array<JointInfo, kNumJoints>& Joints() {
   static constexpr std::array<JointInfo, kNumJoints> kJoints = {{
-      {"pelvis", "root", -1, 0},           {"left_hip", "lhipjoint", 0, 5},
-      {"left_knee", "lfemur", 1, 6},       {"left_ankle", "ltibia", 2, 7},
-      {"left_foot", "lfoot", 3, 8},        {"right_hip", "rhipjoint", 0, 1},
-      {"right_knee", "rfemur", 5, 2},      {"right_ankle", "rtibia", 6, 3},
-      {"right_foot", "rfoot", 7, 4},       {"lower_back", "lowerback", 0, 9},
-      {"upper_back", "upperback", 9, 10},  {"thorax", "thorax", 10, 11},
-      {"lower_neck", "lowerneck", 11, 12}, {"upper_neck", "upperneck", 12, 13},
-      {"head_top", "head", 13, 14},        {"left_shoulder", "lclavicle", 11, 19},
-      {"left_elbow", "lhumerus", 15, 20},  {"left_wrist", "lradius", 16, 21},
-      {"left_hand", "lwrist", 17, 22},     {"right_shoulder", "rclavicle", 11, 15},
-      {"right_elbow", "rhumerus", 19, 16}, {"right_wrist", "rradius", 20, 17},
-      {"right_hand", "rwrist", 21, 18},
+      {ToTranslate("pelvis"), "root", -1, 0},
+      {ToTranslate("left_hip"), "lhipjoint", 0, 5},
+      {ToTranslate("left_knee"), "lfemur", 1, 6},
+      {ToTranslate("left_ankle"), "ltibia", 2, 7},
+      {ToTranslate("left_foot"), "lfoot", 3, 8},
+      {ToTranslate("right_hip"), "rhipjoint", 0, 1},
+      {ToTranslate("right_knee"), "rfemur", 5, 2},
+      {ToTranslate("right_ankle"), "rtibia", 6, 3},
+      {ToTranslate("right_foot"), "rfoot", 7, 4},
+      {ToTranslate("lower_back"), "lowerback", 0, 9},
+      {ToTranslate("upper_back"), "upperback", 9, 10},
+      {ToTranslate("thorax"), "thorax", 10, 11},
+      {ToTranslate("lower_neck"), "lowerneck", 11, 12},
+      {ToTranslate("upper_neck"), "upperneck", 12, 13},
+      {ToTranslate("head_top"), "head", 13, 14},
+      {ToTranslate("left_shoulder"), "lclavicle", 11, 19},
+      {ToTranslate("left_elbow"), "lhumerus", 15, 20},
+      {ToTranslate("left_wrist"), "lradius", 16, 21},
+      {ToTranslate("left_hand"), "lwrist", 17, 22},
+      {ToTranslate("right_shoulder"), "rclavicle", 11, 15},
+      {ToTranslate("right_elbow"), "rhumerus", 19, 16},
+      {ToTranslate("right_wrist"), "rradius", 20, 17},
+      {ToTranslate("right_hand"), "rwrist", 21, 18},
   }};
   return kJoints;
 }

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the poselift authors
 #include "src/layout.h"
 
+#include "src/translated.h"
+
 namespace poselift {
 namespace {
 
@@ -36,15 +38,15 @@ Landmark Neck(std::string_view name) {
 Landmark Foot(std::string_view name, int foot) { return {name, {{foot, 1.0}}, kToeSigma_m}; }
 
 Layout Body15() {
-  return {
-      "body15",
-      {Joint("pelvis", kPelvis), Landmark{"neck", kNeckBase, kMiddleSigma_m},
-       Landmark{"head_top", kCrown, kMiddleSigma_m}, Joint("left_shoulder", kLeftShoulder),
-       Joint("right_shoulder", kRightShoulder), Joint("left_elbow", kLeftElbow),
-       Joint("right_elbow", kRightElbow), Joint("left_wrist", kLeftHand),
-       Joint("right_wrist", kRightHand), Joint("left_hip", kLeftHip), Joint("right_hip", kRightHip),
-       Joint("left_knee", kLeftKnee), Joint("right_knee", kRightKnee),
-       Joint("left_ankle", kLeftAnkle), Joint("right_ankle", kRightAnkle)}};
+  return {"body15",
+          {Joint("pelvis", kPelvis), Landmark{"neck", kNeckBase, kMiddleSigma_m},
+           Landmark{ToTranslate("head_top"), kCrown, kMiddleSigma_m},
+           Joint("left_shoulder", kLeftShoulder), Joint("right_shoulder", kRightShoulder),
+           Joint("left_elbow", kLeftElbow), Joint("right_elbow", kRightElbow),
+           Joint("left_wrist", kLeftHand), Joint("right_wrist", kRightHand),
+           Joint("left_hip", kLeftHip), Joint("right_hip", kRightHip),
+           Joint("left_knee", kLeftKnee), Joint("right_knee", kRightKnee),
+           Joint("left_ankle", kLeftAnkle), Joint("right_ankle", kRightAnkle)}};
 }
 
 Layout Coco17() {
@@ -70,7 +72,7 @@ Layout OpenPose25() {
            Joint("left_shoulder", kLeftShoulder),
            Joint("left_elbow", kLeftElbow),
            Joint("left_wrist", kLeftHand),
-           Landmark{"mid_hip", {{kLeftHip, 0.5}, {kRightHip, 0.5}}, kMiddleSigma_m},
+           Landmark{ToTranslate("mid_hip"), {{kLeftHip, 0.5}, {kRightHip, 0.5}}, kMiddleSigma_m},
            Joint("right_hip", kRightHip),
            Joint("right_knee", kRightKnee),
            Joint("right_ankle", kRightAnkle),

@@ -15,6 +15,9 @@ using TranslateFn = std::function<std::string(const char* english)>;
 void TranslateBy(TranslateFn translate);
 
 std::string Translated(const std::string& english);  // a text without values
+
+// Marks a text of a table, which is translated by Translated where it is shown.
+constexpr const char* ToTranslate(const char* english) { return english; }
 std::string TranslatedFormat(fmt::string_view english, fmt::format_args values);
 
 // A text with values: translated is the format ("pose {} of {}", fmt's), not what it comes to. A

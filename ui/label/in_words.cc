@@ -10,9 +10,9 @@
 namespace poselift {
 
 std::string InWords(std::string_view name) {
-  std::string words(name);
+  std::string words = Translated(std::string(name));
   std::ranges::replace(words, '_', ' ');
-  return Translated(words);
+  return words;
 }
 
 std::string InWords(const LabelHint& hint) {

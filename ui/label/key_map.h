@@ -92,7 +92,7 @@ enum class Action {
 struct ActionInfo {
   Action action;
   std::string_view name;          // in the keys file: "next_frame"
-  std::string_view description;   // in the list of keys: "Next picture"
+  const char* description;        // in the list of keys: "Next picture"
   std::string_view default_keys;  // as QKeySequence reads them, apart by spaces
   bool is_live = false;           // of the camera's window, whose keys may be used here, too
 };

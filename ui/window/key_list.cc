@@ -6,6 +6,7 @@
 #include <QCoreApplication>
 #include <QMessageBox>
 
+#include "src/translated.h"
 #include "ui/window/text_of.h"
 
 namespace poselift {
@@ -21,7 +22,7 @@ QString KeysOf(Action action, const KeyMap& keys) {
 }  // namespace
 
 QString DescriptionOf(const ActionInfo& info) {
-  return QCoreApplication::translate("Keys", info.description.data());
+  return QString::fromStdString(Translated(info.description));
 }
 
 QString TipOf(const QString& text, Action action, const KeyMap& keys) {

@@ -24,7 +24,7 @@ TEST(KeyMap, EachActionHasADescriptionAndKeysOfItsOwn) {
   std::set<std::pair<std::string, bool>> keys;
   for (const ActionInfo& info : Actions()) {
     EXPECT_EQ(&InfoOf(info.action), &info) << info.name;
-    EXPECT_FALSE(info.description.empty()) << info.name;
+    EXPECT_STRNE(info.description, "") << info.name;
     EXPECT_FALSE(map.Keys(info.action).empty()) << info.name;
     for (const std::string& key : map.Keys(info.action))
       EXPECT_TRUE(keys.emplace(key, info.is_live).second) << key;
