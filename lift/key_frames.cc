@@ -82,9 +82,9 @@ std::map<int, std::vector<Key>> KeysOf(LiftedLabels lifted, const KeyTimes& time
   for (size_t f = 0; f < lifted.results.size(); ++f)
     for (size_t p = 0; p < lifted.results[f].size(); ++p) {
       PersonPose& person = lifted.poses.frames[f].people[p];
-      if (lifted.results[f][p].IsUsable())
-        keys[person.id].push_back(
-            {times.numbers[f], std::move(lifted.results[f][p]), std::move(person)});
+      if (!lifted.results[f][p].IsUsable()) continue;
+      std::vector<Key>& of_person = keys[person.id];
+      of_person.push_back({times.numbers[f], std::move(lifted.results[f][p]), std::move(person)});
     }
   return keys;
 }

@@ -50,8 +50,8 @@ InputError CutShort(const fs::path& path) {
 // FFmpeg's threads complain of damage at any time, also while QuietStderr is not
 // there. Who sets the variable wants to hear them.
 void QuietDecoders() {
-  static const int set = ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
-  static_cast<void>(set);
+  static const int kIsSet = ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
+  static_cast<void>(kIsSet);
 }
 
 // Matroska and WebM state how long they are; OpenCV multiplies that by a guessed rate.

@@ -25,9 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 const PhotoLifter& TheLifter() {
-  static const Dictionary dictionary = ReadDictionary(testing::SourcePath("data/default.pldict"));
-  static const PhotoLifter lifter(dictionary);
-  return lifter;
+  static const Dictionary kDictionary = ReadDictionary(testing::SourcePath("data/default.pldict"));
+  static const PhotoLifter kLifter(kDictionary);
+  return kLifter;
 }
 
 // At work on the labels of a sample picture, which are copied to a folder that goes with this.

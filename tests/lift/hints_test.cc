@@ -32,9 +32,9 @@ constexpr const char* kSamples[] = {"kick", "reach", "throw"};
 constexpr Limb kLimbs[] = {Limb::kLeftLeg, Limb::kRightLeg, Limb::kLeftArm, Limb::kRightArm};
 
 const PhotoLifter& TheLifter() {
-  static const Dictionary dictionary = ReadDictionary(SourcePath("data/default.pldict"));
-  static const PhotoLifter lifter(dictionary);
-  return lifter;
+  static const Dictionary kDictionary = ReadDictionary(SourcePath("data/default.pldict"));
+  static const PhotoLifter kLifter(kDictionary);
+  return kLifter;
 }
 
 PersonLabels SampleLabels(const std::string& name) {

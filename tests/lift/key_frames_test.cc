@@ -20,9 +20,9 @@ namespace poselift {
 namespace {
 
 const PhotoLifter& TheLifter() {
-  static const Dictionary dictionary = ReadDictionary(testing::SourcePath("data/default.pldict"));
-  static const PhotoLifter lifter(dictionary);
-  return lifter;
+  static const Dictionary kDictionary = ReadDictionary(testing::SourcePath("data/default.pldict"));
+  static const PhotoLifter kLifter(kDictionary);
+  return kLifter;
 }
 
 const Skeleton& TheSkeleton() { return TheLifter().dictionary().skeleton; }

@@ -21,17 +21,16 @@
 namespace poselift {
 namespace {
 
-using testing::MatrixNear;
 using testing::SourcePath;
 
 const Dictionary& TheDictionary() {
-  static const Dictionary dictionary = ReadDictionary(SourcePath("data/default.pldict"));
-  return dictionary;
+  static const Dictionary kDictionary = ReadDictionary(SourcePath("data/default.pldict"));
+  return kDictionary;
 }
 
 const PhotoLifter& TheLifter() {
-  static const PhotoLifter lifter(TheDictionary());
-  return lifter;
+  static const PhotoLifter kLifter(TheDictionary());
+  return kLifter;
 }
 
 PersonLabels SampleLabels(const std::string& name) {

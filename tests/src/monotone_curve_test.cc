@@ -33,8 +33,9 @@ TEST(MonotoneCurve, GoesThroughItsValuesAndRestsBeyond) {
 TEST(MonotoneCurve, StaysBetweenTheValuesAround) {
   const MonotoneCurve curve(kTimes, Values());
   for (size_t i = 1; i < kTimes.size(); ++i)
-    for (double part = 0.0; part <= 1.0; part += 0.01) {
-      const Eigen::VectorXd now = curve.At(kTimes[i - 1] + part * (kTimes[i] - kTimes[i - 1]));
+    for (int percent = 0; percent <= 100; ++percent) {
+      const Eigen::VectorXd now =
+          curve.At(kTimes[i - 1] + percent / 100.0 * (kTimes[i] - kTimes[i - 1]));
       const auto behind = static_cast<Eigen::Index>(i);
       for (Eigen::Index row = 0; row < 3; ++row) {
         const auto [low, high] = std::minmax({Values()(row, behind - 1), Values()(row, behind)});

@@ -26,11 +26,11 @@ std::string FlawOf(const Motion& motion) {
 }
 
 const AsfSkeleton& SkeletonIn(const fs::path& dir) {
-  static const AsfSkeleton asf = [&] {
+  static const AsfSkeleton kAsf = [&] {
     WriteBytes(dir / "made_up.asf", kMadeUpAsf);
     return ReadAsfSkeleton(dir / "made_up.asf");
   }();
-  return asf;
+  return kAsf;
 }
 
 Motion SomeMotion(const fs::path& dir) {

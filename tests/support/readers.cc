@@ -34,14 +34,14 @@ std::vector<Reader> AllReaders() {
 }  // namespace
 
 const std::vector<Reader>& Readers() {
-  static const std::vector<Reader> readers = AllReaders();
-  return readers;
+  static const std::vector<Reader> kReaders = AllReaders();
+  return kReaders;
 }
 
 std::string FlawOf(const Reader& reader, std::string_view bytes, const fs::path& dir) {
   const fs::path path = dir / reader.file;
   WriteBytes(path, bytes);
-  const std::string flaw = reader.read(path);
+  std::string flaw = reader.read(path);
   try {
     Describe(path, bytes.substr(0, 4096));
   } catch (const InputError&) {  // what this reader reads may be none of info's

@@ -78,7 +78,7 @@ Camera SomeCamera() { return {640, 480, 650.0, 651.0, 320.25, 240.0, {.k1 = -0.2
 
 std::string ReadsCamera(const fs::path& path) {
   for (const std::string& name : CameraNames(path))
-    if (const std::string flaw = ReadCamera(path, name).Validate(); !flaw.empty()) return flaw;
+    if (std::string flaw = ReadCamera(path, name).Validate(); !flaw.empty()) return flaw;
   return "";
 }
 

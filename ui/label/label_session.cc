@@ -219,7 +219,7 @@ std::string LabelSession::Status() const {
   if (!project_->unsaved_reason().empty())
     return Translated("NOT SAVED: {}", project_->unsaved_reason());
   if (labels().frames.empty()) return Translated("no pictures");
-  if (const std::string working = Working(); !working.empty()) return working;
+  if (std::string working = Working(); !working.empty()) return working;
   if (!notice_.empty()) return notice_;
   if (nearer_)
     return Translated("click the joint that is farther from the camera than {}",

@@ -198,7 +198,7 @@ class LabelSession {
   const std::vector<std::uint64_t>& MarksOfMotion() const;
   void FlipLimb(const std::string& joint);
   void KeepPose();
-  void Give(std::vector<LabelHint> hints);
+  void Give(const std::vector<LabelHint>& hints);
   size_t NextWhere(bool is_labelled, int step) const;
 
   LabelProject* project_;

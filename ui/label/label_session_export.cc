@@ -57,7 +57,7 @@ void LabelSession::ExportMotion(const fs::path& path) {
 }
 
 std::optional<fs::path> LabelSession::TakeExported() {
-  const auto where = export_job_.Take();
+  auto where = export_job_.Take();
   // Still there for who comes back after a while.
   if (where) notice_ = Translated("exported to {}", where->string());
   return where;

@@ -99,7 +99,7 @@ std::vector<LabelHint> LabelSession::Hints() const {
   return labels().frames[frame_index_].people[person_index_].hints;
 }
 
-void LabelSession::Give(std::vector<LabelHint> hints) {
+void LabelSession::Give(const std::vector<LabelHint>& hints) {
   if (hints.empty() || !HasPerson()) return;
   chosen_in_cam_m_.reset();  // the hints say it
   Apply(GiveHints(labels(), Ref(), hints));

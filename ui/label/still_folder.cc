@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 fs::path FreeName(const fs::path& folder, const std::string& stem, const std::string& ending) {
   std::error_code ignored;
   for (int number = 1;; ++number) {
-    const fs::path path = folder / fmt::format("{}-{:04}{}", stem, number, ending);
+    fs::path path = folder / fmt::format("{}-{:04}{}", stem, number, ending);
     if (!fs::exists(fs::symlink_status(path, ignored))) return path;
   }
 }

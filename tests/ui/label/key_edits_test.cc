@@ -68,7 +68,7 @@ class KeyEditsTest : public ::testing::Test {
     EXPECT_EQ(LabelsText(history_.labels()), after) << edit.name;
     history_.Seal();
   }
-  using Poses_t = std::vector<std::pair<double, int>>;
+  using PosesAt = std::vector<std::pair<double, int>>;
 
   LabelHistory history_{Labels{}};
 };
@@ -76,7 +76,7 @@ class KeyEditsTest : public ::testing::Test {
 TEST_F(KeyEditsTest, OneIsAddedWhereverItIsWanted) {
   Apply(AddKeyFrame(history_.labels(), Keys(), 15, Posed(1.5)));
   EXPECT_EQ(history_.UndoName(), "add key frame 3");
-  EXPECT_EQ(Poses(), (Poses_t{{0, 0}, {10, 10}, {1.5, 15}, {20, 20}, {40, 40}}));
+  EXPECT_EQ(Poses(), (PosesAt{{0, 0}, {10, 10}, {1.5, 15}, {20, 20}, {40, 40}}));
   Apply(AddKeyFrame(history_.labels(), Keys(), 60, Posed(6.0)));
   EXPECT_EQ(Poses().back(), std::pair(6.0, 60));
 }
@@ -84,7 +84,7 @@ TEST_F(KeyEditsTest, OneIsAddedWhereverItIsWanted) {
 TEST_F(KeyEditsTest, WithoutRoomThoseBehindGoOn) {
   Apply(MoveKeyFrame(history_.labels(), Keys(), 1, 19, Along::kAlone));
   Apply(AddKeyFrame(history_.labels(), Keys(), NumberBehind(Keys(), 1), Posed(1.5)));
-  EXPECT_EQ(Poses(), (Poses_t{{0, 0}, {10, 19}, {1.5, 20}, {20, 21}, {40, 40}}));
+  EXPECT_EQ(Poses(), (PosesAt{{0, 0}, {10, 19}, {1.5, 20}, {20, 21}, {40, 40}}));
 }
 
 TEST_F(KeyEditsTest, TheNextOneIsHalfWayOrAGapBehind) {
@@ -96,10 +96,10 @@ TEST_F(KeyEditsTest, TheNextOneIsHalfWayOrAGapBehind) {
 
 TEST_F(KeyEditsTest, TheTimesOfTheOthersStayWhenOneGoes) {
   Apply(RemoveKeyFrame(history_.labels(), Keys(), 1));
-  EXPECT_EQ(Poses(), (Poses_t{{0, 0}, {20, 20}, {40, 40}}));
+  EXPECT_EQ(Poses(), (PosesAt{{0, 0}, {20, 20}, {40, 40}}));
   Apply(RemoveKeyFrame(history_.labels(), Keys(), 0));
   Apply(RemoveKeyFrame(history_.labels(), Keys(), 1));
-  EXPECT_EQ(Poses(), (Poses_t{{20, 20}}));
+  EXPECT_EQ(Poses(), (PosesAt{{20, 20}}));
   EXPECT_THROW(RemoveKeyFrame(history_.labels(), Keys(), 0), std::invalid_argument);
 }
 
@@ -110,7 +110,7 @@ TEST_F(KeyEditsTest, OneMovesUpToItsNeighboursOrTakesAllBehindAlong) {
   move(1, 35, Along::kAlone);
   EXPECT_EQ(Poses()[1].second, 19);
   move(1, 4, Along::kAllBehind);
-  EXPECT_EQ(Poses(), (Poses_t{{0, 0}, {10, 4}, {20, 5}, {40, 25}}));
+  EXPECT_EQ(Poses(), (PosesAt{{0, 0}, {10, 4}, {20, 5}, {40, 25}}));
   move(1, -3, Along::kAllBehind);
   EXPECT_EQ(Poses()[1].second, 1);
   move(3, 99, Along::kAlone);
@@ -130,9 +130,9 @@ TEST_F(KeyEditsTest, MovesInARowAreOneStep) {
 
 TEST_F(KeyEditsTest, AnotherRateKeepsTheTimesAsFarAsItCan) {
   Apply(ChangeKeyRate(history_.labels(), Keys(), 50.0));
-  EXPECT_EQ(Poses(), (Poses_t{{0, 0}, {10, 20}, {20, 40}, {40, 80}}));
+  EXPECT_EQ(Poses(), (PosesAt{{0, 0}, {10, 20}, {20, 40}, {40, 80}}));
   Apply(ChangeKeyRate(history_.labels(), Keys(), 2.0));
-  EXPECT_EQ(Poses(), (Poses_t{{0, 0}, {10, 1}, {20, 2}, {40, 3}}));
+  EXPECT_EQ(Poses(), (PosesAt{{0, 0}, {10, 1}, {20, 2}, {40, 3}}));
   EXPECT_EQ(Keys().fps, 2.0);
 }
 

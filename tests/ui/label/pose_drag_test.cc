@@ -30,13 +30,13 @@ using testing::ScratchDir;
 using testing::SourcePath;
 
 const Dictionary& TheDictionary() {
-  static const Dictionary dictionary = ReadDictionary(SourcePath("data/default.pldict"));
-  return dictionary;
+  static const Dictionary kDictionary = ReadDictionary(SourcePath("data/default.pldict"));
+  return kDictionary;
 }
 
 const PhotoLifter& TheLifter() {
-  static const PhotoLifter lifter(TheDictionary());
-  return lifter;
+  static const PhotoLifter kLifter(TheDictionary());
+  return kLifter;
 }
 
 // Of a pose without a picture.
@@ -68,12 +68,12 @@ class PoseDragTest : public ::testing::Test {
   }
   // Returns where the mouse let it go.
   Eigen::Vector3d Drag(std::string_view name, const Eigen::Vector3d& by_m, Way way = Way::kFree) {
-    const Eigen::Vector3d from_m = Place_m(name), to_m = from_m + by_m;
+    const Eigen::Vector3d from_m = Place_m(name);
     EXPECT_TRUE(session_->PressHandle(Handle(name), way));
     for (const double part : {0.3, 0.7, 1.0}) session_->MoveHandle(from_m + part * by_m);
     session_->Release();
     session_->WaitUntilSolved();
-    return to_m;
+    return from_m + by_m;
   }
   double Moved_m(std::string_view name, const Pose3& before_m) const {
     return (Place_m(name) - session_->handles()[Handle(name)].In(before_m)).norm();

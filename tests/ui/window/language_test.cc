@@ -52,7 +52,7 @@ class LanguageTest : public testing::SampleWindow {
 
   // Words outside of all quotes.
   static void Check(const QString& text, const QObject& where) {
-    static const QRegularExpression quoted("«[^«»]*»"), tag("<[^>]*>"),
+    const QRegularExpression quoted("«[^«»]*»"), tag("<[^>]*>"),
         file(R"([\w/.…-]+\.(jpg|json|mp4)|[\w.…-]*/[\w/.-]+)"), word("[A-Za-z]{3,}");
     QString left = text;
     left.remove(tag).remove(file);
