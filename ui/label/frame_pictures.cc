@@ -81,8 +81,9 @@ cv::Mat FramePictures::ReadFrame(const std::string& image, int index, const Prog
   const auto kept = std::ranges::find(kept_, index, &std::pair<int, cv::Mat>::first);
   if (kept != kept_.end()) return kept->second;
   // Who goes back a little goes on so: those before are kept on the way.
-  const auto room =
-      static_cast<int>(kKept_bytes / 3 / static_cast<size_t>(video_->size_px().area()));
+  const auto area = static_cast<size_t>(video_->size_px().area());
+  // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): Open gave a size
+  const auto room = static_cast<int>(kKept_bytes / 3 / area);
   const int back = std::clamp(room - 1, 0, kBack);
   const bool is_going_back = index < before && index > before - kBack;
   const int first = is_going_back ? std::max(0, index - back) : index;

@@ -69,11 +69,11 @@ void KeyTimeline::PaintRuler(QPainter* painter) const {
   const QColor text = palette().color(QPalette::Text);
   QColor faint = text;
   faint.setAlphaF(0.35F);
-  constexpr double kStep = 70.0;  // of the widget
-  const double step =
-      std::max(1.0, TickStep({0.0, LastNumber()}, (width() - 2.0 * kMargin) / kStep));
-  for (double number = 0.0; number <= LastNumber(); number += step) {
-    const double x = X(static_cast<int>(number));
+  const double num_steps = (width() - 2.0 * kMargin) / 70.0;
+  // 1, 2, 5, 10 …
+  const int step = static_cast<int>(std::max(1.0, TickStep({0.0, LastNumber()}, num_steps)));
+  for (int number = 0; number <= LastNumber(); number += step) {
+    const double x = X(number);
     painter->setPen(faint);
     painter->drawLine(QPointF(x, kRuler - 4.0), QPointF(x, kHeight));
     painter->setPen(text);
