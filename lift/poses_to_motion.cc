@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "lift/body_proportions.h"
 #include "lift/person_ik.h"
@@ -146,18 +147,24 @@ void KeepSureAngles(const std::vector<const PersonPose*>& people, PosesMotion* r
   }
 }
 
+double LowestHeight_m(const Skeleton& skeleton, const SkeletonPose& pose) {
+  const Pose3 joints_m = JointPositions(skeleton, pose);
+  double lowest_m = HUGE_VAL;
+  for (Eigen::Index j = 0; j < joints_m.cols(); ++j)
+    if (joints_m.col(j).allFinite()) lowest_m = std::min(lowest_m, joints_m(1, j));
+  return lowest_m;
+}
+
 // World's origin on the floor, below the first known pelvis.
 void StandOnFloor(PosesMotion* result) {
+  const bool is_placed = result->camera.has_depth || result->camera.centre_px.allFinite();
   std::vector<double> lowest_m;
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
-  for (const SkeletonPose& pose : result->motion.frames) {
+  for (SkeletonPose& pose : result->motion.frames) {
     if (!IsKnown(pose)) continue;
     if (lowest_m.empty()) origin_m = pose.root_in_world_m;
-    const Pose3 joints_m = JointPositions(result->motion.skeleton, pose);
-    double lowest = HUGE_VAL;
-    for (Eigen::Index j = 0; j < joints_m.cols(); ++j)
-      if (joints_m.col(j).allFinite()) lowest = std::min(lowest, joints_m(1, j));
-    lowest_m.push_back(lowest);
+    lowest_m.push_back(LowestHeight_m(result->motion.skeleton, pose));
+    if (!is_placed) pose.root_in_world_m.y() -= std::exchange(lowest_m.back(), 0.0);
   }
   if (lowest_m.empty()) throw InputError("found no pose that a skeleton could take");
   const auto quantile =

@@ -25,7 +25,8 @@ namespace poselift {
 //   x_m = (translation_px - centre_px) / scale_px_per_m,
 // with its depth 0 throughout. centre_px stands for the principal point, which
 // nobody told: it is the median of the translations, so that noise of the scale
-// moves the body as little as can be.
+// moves the body as little as can be. Poses without any picture stay over the
+// origin, and rest on the floor in every frame.
 
 struct PosesToMotionOptions {
   std::optional<int> person_id;        // else the first person of the first frame with any

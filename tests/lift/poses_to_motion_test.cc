@@ -96,6 +96,21 @@ TEST(PosesToMotion, WeakPerspectiveKeepsThePicturesPlaneAndTheWayBackThePixels) 
   }
 }
 
+TEST(PosesToMotion, WhoIsInNoPictureRestsOnTheFloor) {
+  Poses poses = PlantPoses(20, false);
+  for (FramePoses& frame : poses.frames) {
+    PersonPose& person = frame.people.front();
+    person.translation_px.setConstant(kUnknown);
+    person.scale_px_per_m = kUnknown;
+  }
+  const PosesMotion there = PosesToMotion(poses, testing::TrimmedCmuLikeSkeleton());
+  for (const SkeletonPose& pose : there.motion.frames) {
+    EXPECT_NEAR(JointPositions(there.motion.skeleton, pose).row(1).minCoeff(), 0.0, 1e-9);
+    EXPECT_NEAR(pose.root_in_world_m.x(), 0.0, 0.005);
+    EXPECT_NEAR(pose.root_in_world_m.z(), 0.0, 0.005);
+  }
+}
+
 TEST(PosesToMotion, FramesWithoutAPoseAreUnknown) {
   Poses poses = PlantPoses(20, true);
   poses.frames[4].people.clear();
