@@ -29,6 +29,8 @@ constexpr std::array kActions = {
     ActionInfo{Action::kBack100, "back_100", ToTranslate("100 pictures back"), "Ctrl+Left"},
     ActionInfo{Action::kFirstFrame, "first_frame", ToTranslate("First picture"), "Home"},
     ActionInfo{Action::kLastFrame, "last_frame", ToTranslate("Last picture"), "End"},
+    ActionInfo{Action::kNextVideo, "next_video", ToTranslate("Next video"), "PgDown"},
+    ActionInfo{Action::kPreviousVideo, "previous_video", ToTranslate("Previous video"), "PgUp"},
     ActionInfo{Action::kNextUnlabelled, "next_unlabelled",
                ToTranslate("Next picture without labels"), "N"},
     ActionInfo{Action::kNextLabelled, "next_labelled", ToTranslate("Next picture with labels"),
@@ -37,6 +39,8 @@ constexpr std::array kActions = {
                ToTranslate("Previous picture with labels"), "["},
     ActionInfo{Action::kSuggested, "suggested", ToTranslate("Picture where labels would tell most"),
                "Shift+N"},
+    ActionInfo{Action::kLastChanged, "last_changed", ToTranslate("Picture that was changed last"),
+               "U"},
     ActionInfo{Action::kNextJoint, "next_joint", ToTranslate("Next joint"), "Down Tab"},
     ActionInfo{Action::kPreviousJoint, "previous_joint", ToTranslate("Previous joint"),
                "Up Shift+Tab"},
@@ -120,6 +124,8 @@ constexpr std::array kActions = {
                ToTranslate("Show or hide lines between labels"), "E"},
     ActionInfo{Action::kToggleSkeleton, "toggle_skeleton",
                ToTranslate("Show or hide the 3D pose's skeleton"), "H"},
+    ActionInfo{Action::kToggleTrail, "toggle_trail",
+               ToTranslate("Show or hide the joint's way through the video"), "W"},
     ActionInfo{Action::kSave, "save", ToTranslate("Save"), "Ctrl+S"},
     ActionInfo{Action::kUndo, "undo", ToTranslate("Undo"), "Ctrl+Z"},
     ActionInfo{Action::kRedo, "redo", ToTranslate("Redo"), "Ctrl+Shift+Z Ctrl+Y"},
@@ -169,9 +175,19 @@ KeyMap::KeyMap() {
   }
 }
 
+// A default key that the file gives to another action is that one's.
+void KeyMap::GiveWay(const ActionInfo& info, const std::vector<const ActionInfo*>& named) {
+  std::erase_if(keys_[static_cast<size_t>(info.action)], [&](const std::string& key) {
+    return std::ranges::any_of(named, [&](const ActionInfo* other) {
+      return other->is_live == info.is_live && std::ranges::count(Keys(other->action), key) > 0;
+    });
+  });
+}
+
 KeyMap KeyMap::Read(const std::filesystem::path& path) {
   const toml::table table = ReadToml(path, "a file of keys: save = \"Ctrl+S\"");
   KeyMap map;
+  std::vector<const ActionInfo*> named;
   for (const auto& [name, node] : table) {
     const auto info = std::ranges::find(kActions, name.str(), &ActionInfo::name);
     if (info == kActions.end())
@@ -179,7 +195,10 @@ KeyMap KeyMap::Read(const std::filesystem::path& path) {
                        fmt::format("found '{}', wanted the name of an action, perhaps one of {}",
                                    name.str(), fmt::join(NearestActions(name.str()), ", ")));
     map.keys_[static_cast<size_t>(info->action)] = KeysOf(node, path);
+    named.push_back(&*info);
   }
+  for (const ActionInfo& info : kActions)
+    if (std::ranges::find(named, &info) == named.end()) map.GiveWay(info, named);
   std::map<std::pair<std::string, bool>, std::string_view> owners;
   for (const ActionInfo& info : kActions)
     for (const std::string& key : map.Keys(info.action)) {

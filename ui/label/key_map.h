@@ -21,10 +21,13 @@ enum class Action {
   kBack100,
   kFirstFrame,
   kLastFrame,
+  kNextVideo,
+  kPreviousVideo,
   kNextUnlabelled,
   kNextLabelled,
   kPreviousLabelled,
   kSuggested,
+  kLastChanged,
   kNextJoint,
   kPreviousJoint,
   kCycleState,
@@ -79,6 +82,7 @@ enum class Action {
   kToggleLabels,
   kToggleEdges,
   kToggleSkeleton,
+  kToggleTrail,
   kSave,
   kUndo,
   kRedo,
@@ -106,8 +110,8 @@ class KeyMap {
   KeyMap();
 
   // TOML: `next_frame = ["Right", "D"]`, one or several keys, none to have none. What the file
-  // does not name stays. Throws InputError with file:line for names of no action and for keys
-  // that two actions have.
+  // does not name stays, without keys that the file gives to others. Throws InputError with
+  // file:line for names of no action and for keys that it gives to two actions.
   static KeyMap Read(const std::filesystem::path& path);
 
   const std::vector<std::string>& Keys(Action action) const {
@@ -115,6 +119,8 @@ class KeyMap {
   }
 
  private:
+  void GiveWay(const ActionInfo& info, const std::vector<const ActionInfo*>& named);
+
   std::vector<std::vector<std::string>> keys_;
 };
 

@@ -30,6 +30,7 @@
 #include "ui/label/pose_drag.h"
 #include "ui/label/pose_handles.h"
 #include "ui/label/pose_solver.h"
+#include "ui/label/trail.h"
 
 namespace poselift {
 
@@ -152,6 +153,8 @@ class LabelSession {
   std::optional<std::filesystem::path> TakeExported();
   void WaitUntilExported() { export_job_.WaitUntilIdle(); }
 
+  // Of the landmark at hand.
+  std::vector<TrailPoint> Trail() const;
   // How far the shown pose is from a landmark's label; nothing without one of them.
   std::optional<double> Residual_px(std::string_view landmark) const;
   std::optional<double> ResidualInSigmas(std::string_view landmark) const;
@@ -200,6 +203,7 @@ class LabelSession {
   void KeepPose();
   void Give(const std::vector<LabelHint>& hints);
   size_t NextWhere(bool is_labelled, int step) const;
+  std::optional<size_t> GoalOf(Action action) const;
 
   LabelProject* project_;
   const PhotoLifter& lifter_;

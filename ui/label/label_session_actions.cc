@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "lift/lifted_files.h"
 #include "src/translated.h"
 #include "ui/label/label_edits.h"
 #include "ui/label/label_session.h"
@@ -18,6 +19,23 @@ bool HasLabels(const FrameLabels& frame) {
                              [](const PersonLabels& person) { return !person.landmarks.empty(); });
 }
 
+// The frame at hand where the edit is of it too, or of none.
+size_t FrameToSee(const LabelEdit& edit, size_t at_hand) {
+  return edit.people.empty() || edit.people.contains(at_hand) ? at_hand
+                                                              : edit.people.begin()->first;
+}
+
+// The first frames of the videos beside that of a frame; the frame itself where there is none.
+size_t NextVideo(const Labels& labels, size_t frame) {
+  const auto next = static_cast<size_t>(FramesOfVideo(labels, frame).last) + 1;
+  return next < labels.frames.size() ? next : frame;
+}
+
+size_t PreviousVideo(const Labels& labels, size_t frame) {
+  const auto first = static_cast<size_t>(FramesOfVideo(labels, frame).first);
+  return first > 0 ? static_cast<size_t>(FramesOfVideo(labels, first - 1).first) : frame;
+}
+
 }  // namespace
 
 size_t LabelSession::NextWhere(bool is_labelled, int step) const {
@@ -26,6 +44,31 @@ size_t LabelSession::NextWhere(bool is_labelled, int step) const {
        i += step)
     if (HasLabels(frames[static_cast<size_t>(i)]) == is_labelled) return static_cast<size_t>(i);
   return frame_index_;
+}
+
+// The frame that a key goes to; nothing for other actions.
+std::optional<size_t> LabelSession::GoalOf(Action action) const {
+  const LabelStep* const last = project_->history().steps().back();
+  switch (action) {
+    case Action::kFirstFrame:
+      return 0;
+    case Action::kLastFrame:
+      return labels().frames.size();
+    case Action::kNextVideo:
+      return NextVideo(labels(), frame_index_);
+    case Action::kPreviousVideo:
+      return PreviousVideo(labels(), frame_index_);
+    case Action::kNextUnlabelled:
+      return NextWhere(false, 1);
+    case Action::kNextLabelled:
+      return NextWhere(true, 1);
+    case Action::kPreviousLabelled:
+      return NextWhere(true, -1);
+    case Action::kLastChanged:
+      return last ? FrameToSee(last->edit, frame_index_) : frame_index_;
+    default:
+      return std::nullopt;
+  }
 }
 
 bool LabelSession::Do(Action action) {
@@ -52,23 +95,12 @@ bool LabelSession::DoGo(Action action) {
     GoToFrame(static_cast<size_t>(std::max<std::ptrdiff_t>(to, 0)));
     return true;
   }
+  if (const auto goal = GoalOf(action)) {
+    GoToFrame(*goal);
+    return true;
+  }
   const int count = static_cast<int>(layout_->landmarks.size());
   switch (action) {
-    case Action::kFirstFrame:
-      GoToFrame(0);
-      return true;
-    case Action::kLastFrame:
-      GoToFrame(labels().frames.size());
-      return true;
-    case Action::kNextUnlabelled:
-      GoToFrame(NextWhere(false, 1));
-      return true;
-    case Action::kNextLabelled:
-      GoToFrame(NextWhere(true, 1));
-      return true;
-    case Action::kPreviousLabelled:
-      GoToFrame(NextWhere(true, -1));
-      return true;
     case Action::kSuggested:
       if (HasKeyFrames()) return true;  // there is no picture to label
       if (const auto frame = SuggestedFrame(labels(), PersonOfMotion(), motion()))
@@ -158,19 +190,29 @@ bool LabelSession::DoOnProject(Action action) {
       Stop();
       return true;
     case Action::kUndo:
-    case Action::kRedo:
+    case Action::kRedo: {
       drag_.reset();
       chosen_in_cam_m_.reset();
+      const LabelSteps& steps = project_->history().steps();
+      const LabelStep* const step = action == Action::kUndo ? steps.back() : steps.forward();
+      const size_t seen = step ? FrameToSee(step->edit, frame_index_) : frame_index_;
       action == Action::kUndo ? project_->Undo() : project_->Redo();
       if (labels().frames.empty()) return true;
-      if (frame_index_ >= labels().frames.size()) GoToFrame(frame_index_);  // it is no more there
+      // What changes unseen surprises; and the frame at hand may be one that went.
+      if (seen != frame_index_ || seen >= labels().frames.size()) GoToFrame(seen);
       person_index_ = std::min(person_index_, labels().frames[frame_index_].people.size());
       LabelsChanged();
       Ask();
       return true;
+    }
     default:
       return false;
   }
+}
+
+std::vector<TrailPoint> LabelSession::Trail() const {
+  if (labels().frames.empty() || !HasPerson()) return {};
+  return TrailOf(labels(), Ref(), layout_->landmarks[static_cast<size_t>(landmark_)].name);
 }
 
 void LabelSession::TurnPersonBy(double angle_rad) {

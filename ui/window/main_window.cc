@@ -133,17 +133,17 @@ void MainWindow::AddMenus() {
       {tr("Pi&ctures"),
        {kFollowAll, kFollowForwards, kFollowBackwards, kPosesBetween, kCopyFollowed, kAccept,
         kStop}},
-      {tr("&Go"),
-       {kNextJoint, kPreviousJoint, kNextFrame, kPreviousFrame, kForward10, kBack10, kForward100,
-        kBack100, kFirstFrame, kLastFrame, kNextUnlabelled, kNextLabelled, kPreviousLabelled,
-        kSuggested, kStepBack, kStepForward, kPlay}},
+      {tr("&Go"), {kNextJoint, kPreviousJoint, kNextFrame,      kPreviousFrame, kForward10,
+                   kBack10,    kForward100,    kBack100,        kFirstFrame,    kLastFrame,
+                   kNextVideo, kPreviousVideo, kNextUnlabelled, kNextLabelled,  kPreviousLabelled,
+                   kSuggested, kLastChanged,   kStepBack,       kStepForward,   kPlay}},
       {tr("&Pose"),
        {kNextPose, kKeepPose, kFlipLimb, kTowardsCamera, kAwayFromCamera, kNearer, kOnFloor,
         kForgetHints, kPinJoint, kAddKeyFrame, kRemoveFrame, kKeyEarlier, kKeyLater, kSmoothMotion,
         kShowMotion}},
       {tr("&View"),
        {kZoomIn, kZoomOut, kFit, kFullSize, kZoomToBox, kMirrorView, kToggleLoupe, kToggleLabels,
-        kToggleEdges, kToggleSkeleton}},
+        kToggleEdges, kToggleSkeleton, kToggleTrail}},
       {tr("&Help"), {kHelp}}};
   for (const Menu& menu : menus) {
     auto* const items = menuBar()->addMenu(menu.title);
@@ -167,6 +167,8 @@ bool* MainWindow::Shown(Action action) const {
       return &picture_->shows_edges;
     case Action::kToggleSkeleton:
       return &picture_->shows_skeleton;
+    case Action::kToggleTrail:
+      return &picture_->shows_trail;
     default:
       return nullptr;
   }

@@ -36,6 +36,7 @@ class PictureCanvas : public QWidget {
   void Mirror();     // left and right of what is shown
   // What is shown over the picture.
   bool shows_labels = true, shows_edges = true, shows_skeleton = true, shows_loupe = false;
+  bool shows_trail = true;
   PictureLook look;
 
   const ViewTransform& view() const { return view_; }
@@ -72,6 +73,7 @@ class PictureCanvas : public QWidget {
   void PaintBone(QPainter* painter, int joint, const Eigen::Matrix2Xd& joints_px,
                  const Pose3& joints_m) const;
   void PaintResiduals(QPainter* painter) const;
+  void PaintTrail(QPainter* painter) const;
   void PaintEdges(QPainter* painter, const PersonLabels& person, bool is_at_hand) const;
   void PaintLabels(QPainter* painter, const PersonLabels& person, bool is_at_hand) const;
 

@@ -41,6 +41,7 @@ void PictureCanvas::paintEvent(QPaintEvent* /*event*/) {
 void PictureCanvas::PaintAll(QPainter* painter, const QRectF& window) const {
   PaintPicture(painter, window);
   if (shows_skeleton) PaintPose(painter);
+  if (shows_trail) PaintTrail(painter);
   const FrameLabels frame = session_->Frame();
   for (size_t p = 0; p < frame.people.size(); ++p) {
     const bool is_at_hand = p == session_->person_index();
@@ -113,6 +114,28 @@ void PictureCanvas::PaintPiece(QPainter* painter, const QRectF& target, const QR
                        static_cast<size_t>(piece.bytesPerLine()));
   cv::LUT(pixels, look.Table(), pixels);
   painter->drawImage(shown, piece, source.translated(-whole.topLeft()));
+}
+
+// Of the landmark at hand: what was is a line, what comes are dots, both the fainter the farther.
+void PictureCanvas::PaintTrail(QPainter* painter) const {
+  const std::string_view name =
+      session_->layout().landmarks[static_cast<size_t>(session_->landmark())].name;
+  const QColor color = ColorFrom(ColorOf(SideOf(name)));
+  const TrailPoint* before = nullptr;
+  const std::vector<TrailPoint> trail = session_->Trail();
+  for (const TrailPoint& point : trail) {
+    painter->setOpacity(1.0 - 0.6 * std::abs(point.away) / TrailPoint::kMostAway);
+    if (before && before->away + 1 == point.away) {
+      QPainterPath way(ToWidget(before->x_px));
+      way.lineTo(ToWidget(point.x_px));
+      if (point.away <= 0) StrokeTwice(painter, way, color, 1.5);
+    }
+    painter->setPen(QPen(ColorFrom(palette::kInk), 0.8));
+    painter->setBrush(color);
+    painter->drawEllipse(ToWidget(point.x_px), 2.2, 2.2);
+    before = &point;
+  }
+  painter->setOpacity(1.0);
 }
 
 void PictureCanvas::PaintEdges(QPainter* painter, const PersonLabels& person,

@@ -41,11 +41,20 @@ TEST(KeyMap, AFileChangesWhatItNames) {
   EXPECT_THAT(map.Keys(Action::kSave), ElementsAre("Ctrl+S"));
 }
 
+TEST(KeyMap, DefaultsGiveWay) {
+  const KeyMap map = KeyMap::Read(WriteScratch("keys.toml", "swap_sides = 'O'\nfreeze = 'R'\n"));
+  EXPECT_THAT(map.Keys(Action::kSwapSides), ElementsAre("O"));
+  EXPECT_THAT(map.Keys(Action::kCycleState), IsEmpty());
+  EXPECT_THAT(map.Keys(Action::kRecord), IsEmpty());
+  EXPECT_THAT(map.Keys(Action::kNextFrame), ElementsAre("Right", "D"));
+}
+
 TEST(KeyMap, WhatIsWrongIsRefusedByItsLine) {
-  for (const auto& [text, wanted] : {std::pair{"\nfly = 'F'\n", "keys.toml:2: found 'fly'"},
-                                     {"save = 3\n", "keys.toml:1: found no text"},
-                                     {"save = 'O'\n", "found 'O' for cycle_state and save"},
-                                     {"freeze = 'R'\n", "found 'R' for freeze and record"}}) {
+  for (const auto& [text, wanted] :
+       {std::pair{"\nfly = 'F'\n", "keys.toml:2: found 'fly'"},
+        {"save = 3\n", "keys.toml:1: found no text"},
+        {"save = 'O'\nundo = 'O'\n", "found 'O' for save and undo"},
+        {"freeze = 'R'\nrecord = 'R'\n", "found 'R' for freeze and record"}}) {
     try {
       KeyMap::Read(WriteScratch("keys.toml", text));
       ADD_FAILURE() << text;

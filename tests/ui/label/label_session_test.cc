@@ -14,6 +14,7 @@
 #include "lift/dictionary_file.h"
 #include "src/io/labels.h"
 #include "tests/support/support.h"
+#include "tests/support/walk_labels.h"
 
 namespace poselift {
 namespace {
@@ -142,6 +143,55 @@ TEST_F(LabelSessionTest, KeysGoThroughPicturesAndCopyLabels) {
   EXPECT_EQ(session_->frame_index(), 1U);
   session_->Do(Action::kFirstFrame);
   EXPECT_EQ(session_->frame_index(), 0U);
+}
+
+TEST_F(LabelSessionTest, WhatIsTakenBackIsSeen) {
+  Click({10, 10});
+  session_->Do(Action::kLastFrame);
+  session_->Do(Action::kUndo);
+  EXPECT_EQ(session_->frame_index(), 0U);
+  EXPECT_TRUE(People().empty());
+  session_->Do(Action::kLastFrame);
+  session_->Do(Action::kRedo);
+  EXPECT_EQ(session_->frame_index(), 0U);
+  EXPECT_EQ(Label("pelvis")->x_px, Eigen::Vector2d(10, 10));
+  session_->Do(Action::kUndo);  // at the frame at hand
+  EXPECT_EQ(session_->frame_index(), 0U);
+}
+
+TEST_F(LabelSessionTest, AKeyGoesToThePictureThatWasChangedLast) {
+  session_->Do(Action::kLastChanged);
+  EXPECT_EQ(session_->frame_index(), 0U);
+  session_->Do(Action::kNextFrame);
+  Click({10, 10});
+  session_->Do(Action::kFirstFrame);
+  session_->Do(Action::kLastChanged);
+  EXPECT_EQ(session_->frame_index(), 1U);
+}
+
+TEST_F(LabelSessionTest, KeysGoFromVideoToVideo) {
+  Labels videos = session_->labels();
+  const FrameLabels picture = videos.frames[0];
+  videos.frames.clear();
+  for (const char* image : {"a.mp4", "a.mp4", "b.mp4", "b.mp4", "c.mp4"}) {
+    videos.frames.push_back(picture);
+    videos.frames.back().image = image;
+    videos.frames.back().frame = static_cast<int>(videos.frames.size());
+  }
+  LabelProject project(testing::FreshLabelsFile(testing::ScratchDir(), videos));
+  LabelSession session(&project, lifter_, nullptr);
+  const auto goes_to = [&](Action action) {
+    session.Do(action);
+    return session.frame_index();
+  };
+  session.GoToFrame(1);
+  EXPECT_EQ(goes_to(Action::kNextVideo), 2U);
+  EXPECT_EQ(goes_to(Action::kNextVideo), 4U);
+  EXPECT_EQ(goes_to(Action::kNextVideo), 4U);  // there is no other
+  EXPECT_EQ(goes_to(Action::kPreviousVideo), 2U);
+  session.GoToFrame(3);
+  EXPECT_EQ(goes_to(Action::kPreviousVideo), 0U);
+  EXPECT_EQ(goes_to(Action::kPreviousVideo), 0U);
 }
 
 TEST_F(LabelSessionTest, KeysChangeTheLandmarkAtHand) {

@@ -196,6 +196,7 @@ TEST_F(Screenshots, OfAMotion) {
   for (const QString name : {"left_hip.flexion", "left_elbow.flexion"})
     angles->findItems(name, Qt::MatchExactly).front()->setCheckState(Qt::Checked);
   window.session().GoToFrame(52);
+  window.session().GoToLandmark(window.session().layout().Find("right_wrist").value());
   window.session().WaitUntilSolved();
   window.Refresh();
   window.WaitForPicture();
