@@ -32,25 +32,6 @@ std::string_view TakeDigits(std::string_view* name) {
   return digits;
 }
 
-std::vector<fs::path> ListPictures(const fs::path& folder) {
-  std::error_code error;
-  if (fs::is_regular_file(folder, error)) return {folder};
-  if (!fs::is_directory(folder, error)) throw InputError(folder, "is no folder of pictures");
-  std::vector<fs::path> files;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    const std::string name = at->path().filename();
-    std::error_code ignored;
-    if (name.front() != '.' && HasImageEnding(name) && at->is_regular_file(ignored))
-      files.push_back(at->path());
-  }
-  if (error) throw InputError(folder, "cannot be read: " + error.message());
-  if (files.empty()) throw InputError(folder, "has no pictures; wanted .jpg, .png or the like");
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return IsNaturallyBefore(a.filename().native(), b.filename().native());
-  });
-  return files;
-}
-
 }  // namespace
 
 bool IsNaturallyBefore(std::string_view a, std::string_view b) {
@@ -70,6 +51,25 @@ bool IsNaturallyBefore(std::string_view a, std::string_view b) {
   }
   if (a.empty() != b.empty()) return a.empty();
   return whole_a < whole_b;  // they differ by leading zeros alone
+}
+
+std::vector<fs::path> ListPictures(const fs::path& folder) {
+  std::error_code error;
+  if (fs::is_regular_file(folder, error)) return {folder};
+  if (!fs::is_directory(folder, error)) throw InputError(folder, "is no folder of pictures");
+  std::vector<fs::path> files;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename();
+    std::error_code ignored;
+    if (name.front() != '.' && HasImageEnding(name) && at->is_regular_file(ignored))
+      files.push_back(at->path());
+  }
+  if (error) throw InputError(folder, "cannot be read: " + error.message());
+  if (files.empty()) throw InputError(folder, "has no pictures; wanted .jpg, .png or the like");
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return IsNaturallyBefore(a.filename().native(), b.filename().native());
+  });
+  return files;
 }
 
 bool HasImageEnding(const fs::path& path) {

@@ -38,6 +38,9 @@ class ImageFolder : public FrameSource {
   size_t next_ = 0;
 };
 
+// The files alone, unread. Throws InputError for a folder that is none or has no picture.
+std::vector<std::filesystem::path> ListPictures(const std::filesystem::path& folder);
+
 // Whether a name stands before another, figures by their value: "img2" before "img10".
 bool IsNaturallyBefore(std::string_view a, std::string_view b);
 

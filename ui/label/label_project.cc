@@ -73,15 +73,16 @@ LabelProject::LabelProject(const fs::path& path, const Options& options)
   if (file_.empty()) file_ = path_;
   journal_path_ = Beside(file_, ".journal");
   if (!fs::exists(file_, ignored)) throw InputError(path_.string(), "cannot open it: not there");
+  read_only_ = options.read_only;
   try {
-    lock_ = ProjectLock::Take(Beside(file_, ".lock"), &lock_holder_);
+    if (!read_only_) lock_ = ProjectLock::Take(Beside(file_, ".lock"), &lock_holder_);
     read_only_ = lock_ == nullptr;
   } catch (const InputError&) {
     // A read-only folder, perhaps: OpenJournal meets it again and has it told.
   }
   ReadFile();
   ReadOldJournal();
-  if (read_only_)
+  if (read_only_ && !options.read_only)
     messages_.push_back(fmt::format(
         "{} is open in another window{}: it can be looked at here, not changed", path_.string(),
         lock_holder_.empty() ? "" : fmt::format(" (process {})", lock_holder_)));
@@ -178,7 +179,10 @@ void LabelProject::Note(const std::string& line) {
 }
 
 void LabelProject::RefuseWhenReadOnly() const {
-  if (read_only_) throw InputError(path_.string(), "it is open in another window; change it there");
+  if (!read_only_) return;
+  throw InputError(path_.string(), options_.read_only
+                                       ? "it is open to be looked at; open it without --read-only"
+                                       : "it is open in another window; change it there");
 }
 
 bool LabelProject::Apply(LabelEdit edit) {

@@ -38,6 +38,7 @@ class LabelProject {
   struct Options {
     std::uint64_t longest_journal = 32u << 20;  // bytes
     int num_kept_journals = 10;
+    bool read_only = false;  // to look at the file alone: nothing is written
   };
 
   // Throws InputError for a file that cannot be read or is of another format (ReadLabels and
@@ -75,10 +76,11 @@ class LabelProject {
 
   // Empty while every step is in the journal; else why not, and what to do.
   const std::string& unsaved_reason() const { return unsaved_reason_; }
-  // Somebody else works on the file: one may look, and read who in messages().
+  // As wanted, or somebody else works on the file: one may look, and read why in messages().
   bool read_only() const { return read_only_; }
   // What happened on opening and saving that a person should know, oldest first.
   const std::vector<std::string>& messages() const { return messages_; }
+  void Tell(std::string message) { messages_.push_back(std::move(message)); }
 
  private:
   enum class OldJournal { kContinue, kCopyFirst, kMoveAside };

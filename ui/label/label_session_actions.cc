@@ -65,7 +65,10 @@ std::optional<size_t> LabelSession::GoalOf(Action action) const {
     case Action::kPreviousLabelled:
       return NextWhere(true, -1);
     case Action::kLastChanged:
-      return last ? FrameToSee(last->edit, frame_index_) : frame_index_;
+      if (!last) return frame_index_;
+      if (last->edit.people.empty() && !last->edit.added.empty())
+        return labels().frames.size() - last->edit.added.size();
+      return FrameToSee(last->edit, frame_index_);
     default:
       return std::nullopt;
   }

@@ -37,7 +37,7 @@ namespace {
 struct Options {
   std::vector<std::string> inputs;
   std::string labels, layout = "body15", keys, pose;
-  bool is_live = false;
+  bool is_live = false, read_only = false;
   LiveInputs live;
   std::string out = "live";
 };
@@ -61,7 +61,8 @@ void CheckLive(const CLI::App& app, Options* options) {
   if (options->inputs.size() != 1)
     throw CLI::ValidationError("--live", "wanted one camera, video or folder to watch");
   options->live.view.input = options->inputs[0];
-  cli::RefuseOptions(app, {"--labels"}, "stills of a camera have theirs in the folder of --out");
+  cli::RefuseOptions(app, {"--labels", "--read-only"},
+                     "stills of a camera have theirs in the folder of --out");
   cli::RefuseViewOptions(app, options->live.view);
 }
 
@@ -73,12 +74,15 @@ void AddOptions(CLI::App* app, Options* options) {
       "INPUT", options->inputs,
       "Pictures, folders of pictures, videos, a labels file, or a camera (/dev/video0, "
       "or 0); none: a window asks");
-  app->add_option(
-         "--pose", options->pose,
-         "A pose without a picture, to be dragged: this labels file, made if it is not there")
-      ->excludes(pictures);
+  auto* const pose = app->add_option(
+      "--pose", options->pose,
+      "A pose without a picture, to be dragged: this labels file, made if it is not there");
+  pose->excludes(pictures);
   app->add_option("--labels", options->labels,
                   "The labels file (default: NAME.labels.json beside the first picture)");
+  app->add_flag("--read-only", options->read_only,
+                "Look at labels that are there; nothing is written")
+      ->excludes(pose);
   app->add_option("--layout", options->layout, "Landmarks of new labels")->capture_default_str();
   app->add_option("--keys", options->keys, "A file that says which keys do what (TOML)");
   app->add_flag("--live", options->is_live,
@@ -115,11 +119,14 @@ int Watch(const Options& options, const PhotoLifter& lifter, const KeyMap& keys)
 }
 
 int Label(const Options& options, const PhotoLifter& lifter, const KeyMap& keys) {
-  std::optional<OpenedLabels> opened = OpenedLabels{.file = options.pose, .times = {}};
-  if (options.pose.empty()) opened = OpenLabels(options.inputs, options.labels, options.layout);
+  std::optional<OpenedLabels> opened;
+  if (options.pose.empty())
+    opened = OpenLabels(options.inputs, options.labels, options.layout, options.read_only);
+  else
+    opened.emplace(std::make_unique<LabelProject>(options.pose));
   if (!opened) return 0;
-  LabelProject project(opened->file);
-  MainWindow window(&project, lifter, keys, std::move(opened->times));
+  MainWindow window(opened->project.get(), lifter, keys, std::move(opened->times));
+  window.session().Do(Action::kLastChanged);  // where somebody stopped
   window.show();
   return QApplication::exec();
 }

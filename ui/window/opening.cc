@@ -13,11 +13,18 @@
 namespace poselift {
 
 std::optional<OpenedLabels> OpenLabels(const std::vector<std::string>& inputs,
-                                       const std::string& labels_file, const std::string& layout) {
+                                       const std::string& labels_file, const std::string& layout,
+                                       bool read_only) {
   BackgroundJob<OpenedLabels> job(nullptr);
   job.Start([&](const ProgressFn& progress) {
     OpenedLabels opened;
-    opened.file = FindLabelsFile(inputs, labels_file, layout, progress, &opened.times);
+    const auto file = read_only
+                          ? LabelsFileOf(inputs, labels_file)
+                          : FindLabelsFile(inputs, labels_file, layout, progress, &opened.times);
+    opened.project =
+        std::make_unique<LabelProject>(file, LabelProject::Options{.read_only = read_only});
+    if (!opened.project->read_only())
+      AddNewPictures(inputs, opened.project.get(), progress, &opened.times);
     return opened;
   });
   QProgressDialog window(QProgressDialog::tr("Reading the pictures"), QProgressDialog::tr("Cancel"),

@@ -33,8 +33,8 @@ TEST(Opening, GivesTheLabelsFileAndTheTimesThatWereRead) {
   const fs::path file = FreshFile();
   const auto opened = OpenLabels({Clip()}, file.string(), "body15");
   ASSERT_TRUE(opened);
-  EXPECT_EQ(opened->file, file);
-  const LabelProject project(file);
+  const LabelProject& project = *opened->project;
+  EXPECT_EQ(project.path(), file);
   ASSERT_EQ(opened->times.size(), 1U);
   EXPECT_EQ(opened->times.begin()->first, project.labels().frames[0].image);
   EXPECT_EQ(opened->times.begin()->second.size(), project.labels().frames.size());
@@ -42,6 +42,24 @@ TEST(Opening, GivesTheLabelsFileAndTheTimesThatWereRead) {
 
 TEST(Opening, OfWhatIsNoPictureThrows) {
   EXPECT_THROW(OpenLabels({testing::SourcePath("README.md").string()}, "", "body15"), InputError);
+}
+
+TEST(Opening, ToLookAtMakesNothing) {
+  const fs::path file = FreshFile();
+  EXPECT_THROW(OpenLabels({Clip()}, file.string(), "body15", true), InputError);
+  EXPECT_FALSE(fs::exists(file));
+  OpenLabels({Clip()}, file.string(), "body15");
+  const auto opened = OpenLabels({Clip()}, file.string(), "body15", true);
+  EXPECT_TRUE(opened->project->read_only());
+}
+
+TEST(Opening, AddsWhatIsNew) {
+  const fs::path file = FreshFile();
+  OpenLabels({Clip()}, file.string(), "body15");
+  const std::string kick = testing::SourcePath("samples/photo/kick.jpg").string();
+  const auto opened = OpenLabels({Clip(), kick}, file.string(), "body15");
+  EXPECT_EQ(opened->project->labels().frames.size(), 91U);
+  EXPECT_EQ(opened->project->history().UndoName(), "add pictures");
 }
 
 // It may have been done before.
