@@ -10,7 +10,7 @@ build_packages=(
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev
   libopencv-video-dev libopencv-calib3d-dev
   libapriltag-dev libtomlplusplus-dev libyaml-cpp-dev libcairo2-dev libturbojpeg0-dev
-  libavformat-dev pkg-config
+  libexif-dev libavformat-dev pkg-config
   libcli11-dev nlohmann-json3-dev libfmt-dev libspdlog-dev zlib1g-dev libhnswlib-dev
   qt6-base-dev fonts-dejavu-core
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev

@@ -8,6 +8,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
+
+#include "src/input_error.h"
 
 namespace poselift {
 namespace {
@@ -100,6 +103,37 @@ std::string Camera::Validate() const {
       return fmt::format("found the distortion coefficient {:g}, wanted one below {:g}", k,
                          kLargestCoefficient);
   return {};
+}
+
+Camera UncalibratedCamera(int width_px, int height_px, double focal_px) {
+  return {.width_px = width_px,
+          .height_px = height_px,
+          .fx_px = focal_px,
+          .fy_px = focal_px,
+          .cx_px = 0.5 * width_px - 0.5,
+          .cy_px = 0.5 * height_px - 0.5};
+}
+
+double FocalLength_px(double fov_deg, int width_px) {
+  return 0.5 * width_px / std::tan(fov_deg * std::numbers::pi / 360.0);
+}
+
+Camera AtSize(const Camera& camera, int width_px, int height_px,
+              const std::filesystem::path& file) {
+  const double scale = static_cast<double>(width_px) / camera.width_px;
+  if (std::abs(scale * camera.height_px - height_px) > 1.0)
+    throw InputError(file,
+                     fmt::format("found a camera of {} x {} pixels and pictures of {} x {}, wanted "
+                                 "the same shape: calibrate at the size that is used",
+                                 camera.width_px, camera.height_px, width_px, height_px));
+  Camera scaled = camera;
+  scaled.fx_px *= scale;
+  scaled.fy_px *= scale;
+  scaled.cx_px = scale * (camera.cx_px + 0.5) - 0.5;
+  scaled.cy_px = scale * (camera.cy_px + 0.5) - 0.5;
+  scaled.width_px = width_px;
+  scaled.height_px = height_px;
+  return scaled;
 }
 
 }  // namespace poselift

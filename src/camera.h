@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <string>
 
 namespace poselift {
@@ -39,5 +40,14 @@ struct Camera {
   // further outside than the picture is large.
   std::string Validate() const;
 };
+
+// One that nobody calibrated: square pixels, the middle of the picture, no distortion.
+Camera UncalibratedCamera(int width_px, int height_px, double focal_px);
+// fov_deg: horizontal.
+double FocalLength_px(double fov_deg, int width_px);
+
+// The camera with its pictures scaled to that size. Throws InputError, of the camera's file, for a
+// size of another shape, by more than a pixel.
+Camera AtSize(const Camera& camera, int width_px, int height_px, const std::filesystem::path& file);
 
 }  // namespace poselift

@@ -21,11 +21,11 @@
 #include "lift/normalize.h"
 #include "lift/poses_to_motion.h"
 #include "lift/temporal/motion_codebook_file.h"
-#include "src/io/camera_file.h"
 #include "src/io/image.h"
 #include "src/io/labels.h"
 #include "ui/cli/command.h"
 #include "ui/cli/frame_rate.h"
+#include "ui/cli/lift_camera.h"
 #include "ui/cli/lift_inputs.h"
 #include "ui/cli/lift_pictures.h"
 #include "ui/cli/lift_strip.h"
@@ -44,7 +44,7 @@ struct Options {
   std::string labels;
   std::string layout = "auto";
   std::string dictionary;
-  std::string camera;
+  LiftCamera camera;
   std::string method = "poselift";
   std::string out = ".";
   std::string truth;
@@ -166,8 +166,7 @@ int Lift(const Options& options) {
   if (options.has_fps) SetTimes(options.fps, &inputs.labels);
   const bool is_motion = AreOneMotion(inputs.labels, options);
   if (is_motion) inputs.labels = WithPeopleBetween(inputs.labels);
-  std::optional<Camera> camera;
-  if (!options.camera.empty()) camera = ReadCamera(options.camera);
+  const std::optional<Camera> camera = CameraOf(options.camera, inputs.labels, inputs.images);
   const Dictionary dictionary = ReadDictionary(
       options.dictionary.empty() ? DefaultDictionaryPath() : fs::path(options.dictionary));
   std::optional<Truth> truth;
@@ -209,10 +208,7 @@ CLI::App* AddLift(CLI::App* app, Run* run) {
   command->add_option("--layout", options->layout, "Landmarks of the labels, or auto")
       ->capture_default_str();
   command->add_option("--dictionary", options->dictionary, "Default: the one that ships");
-  command->add_option(
-      "--camera", options->camera,
-      "Camera file (OpenCV, ROS, Kalibr, anipose): lifts in true perspective, without\n"
-      "lens distortion");
+  AddLiftCamera(command, &options->camera);
   command->add_option("--method", options->method, "How to lift")
       ->check(CLI::IsMember(MethodNames()))
       ->capture_default_str();

@@ -71,30 +71,10 @@ int64_t NumFrames(const TrackingInputs& inputs) {
 }
 
 Camera CameraOf(const TrackingInputs& inputs, cv::Size size_px) {
-  if (inputs.camera.empty()) {
-    const double half_rad = inputs.fov_deg * std::numbers::pi / 360.0;
-    const double focal_px = 0.5 * size_px.width / std::tan(half_rad);
-    return {size_px.width,
-            size_px.height,
-            focal_px,
-            focal_px,
-            0.5 * size_px.width - 0.5,
-            0.5 * size_px.height - 0.5};
-  }
-  Camera camera = ReadCamera(inputs.camera);
-  const double scale = static_cast<double>(size_px.width) / camera.width_px;
-  if (std::abs(scale * camera.height_px - size_px.height) > 1.0)
-    throw InputError(inputs.camera,
-                     fmt::format("found a camera of {} x {} pixels and pictures of {} x {}, wanted "
-                                 "the same shape: calibrate at the size that is used",
-                                 camera.width_px, camera.height_px, size_px.width, size_px.height));
-  camera.fx_px *= scale;
-  camera.fy_px *= scale;
-  camera.cx_px = scale * (camera.cx_px + 0.5) - 0.5;
-  camera.cy_px = scale * (camera.cy_px + 0.5) - 0.5;
-  camera.width_px = size_px.width;
-  camera.height_px = size_px.height;
-  return camera;
+  if (inputs.camera.empty())
+    return UncalibratedCamera(size_px.width, size_px.height,
+                              FocalLength_px(inputs.fov_deg, size_px.width));
+  return AtSize(ReadCamera(inputs.camera), size_px.width, size_px.height, inputs.camera);
 }
 
 double DepthSigma(const TrackingInputs& inputs) {

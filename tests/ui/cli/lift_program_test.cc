@@ -12,6 +12,7 @@
 #include <opencv2/core.hpp>
 
 #include "lift/dictionary_file.h"
+#include "src/io/camera_yaml.h"
 #include "src/io/image.h"
 #include "src/io/poses_json.h"
 #include "tests/support/broken_input.h"
@@ -31,6 +32,7 @@ using testing::ProgramRun;
 using testing::Replaced;
 using testing::RunProgram;
 using testing::ScratchDir;
+using testing::SourcePath;
 using testing::TestRng;
 using testing::WriteScratch;
 
@@ -106,6 +108,43 @@ TEST(LiftProgram, RefusesBrokenCameras) {
                  {{"truncated", camera.substr(0, 50), ""},
                   {"NaN", Replaced(camera, "600", "nan"), ":6"},
                   {"no focal length", Replaced(camera, "600", "0"), ""}});
+}
+
+TEST(LiftProgram, TakesACameraThatIsOnlyRoughlyKnown) {
+  const auto lifted = [](const std::string& camera) {
+    const std::string out = (ScratchDir() / "rough").string();
+    const ProgramRun run = RunProgram("lift " + SourcePath("samples/photo/throw.jpg").string() +
+                                      camera + " --out " + out);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return ReadPosesJson(fs::path(out) / "poses.json").frames[0].people[0];
+  };
+  const PersonPose known =
+      lifted(" --camera " + SourcePath("samples/photo/throw.camera.yaml").string());
+  const PersonPose focal = lifted(" --focal-px 1150");
+  const PersonPose fov = lifted(" --fov-deg 38.3552");  // 2 atan(400 / 1150)
+  EXPECT_GT(known.pelvis_in_cam_m.z(), 1.0);
+  for (const PersonPose& rough : {focal, fov}) {
+    EXPECT_TRUE(testing::MatrixNear(rough.pelvis_in_cam_m, known.pelvis_in_cam_m, 1e-3));
+    EXPECT_TRUE(testing::MatrixNear(rough.joints_in_cam_m, known.joints_in_cam_m, 1e-3));
+  }
+  EXPECT_TRUE(lifted("").pelvis_in_cam_m.hasNaN());
+}
+
+TEST(LiftProgram, ACameraIsOfThePictures) {
+  WriteInputs();
+  const auto camera = [](int width_px, int height_px, double focal_px) {
+    WriteCameraYaml(UncalibratedCamera(width_px, height_px, focal_px), ScratchDir() / "c.yaml");
+    return kLift + " --camera c.yaml";
+  };
+  ExpectRefusal(camera(640, 360, 600), "c.yaml: found a camera of 640 x 360");
+  const auto pelvis_m = [](const std::string& command) -> Eigen::Vector3d {
+    EXPECT_EQ(RunProgram(command).code, 0);
+    return ReadPosesJson(ScratchDir() / "out" / "poses.json").frames[0].people[0].pelvis_in_cam_m;
+  };
+  const Eigen::Vector3d same_m = pelvis_m(camera(640, 480, 600));
+  EXPECT_TRUE(testing::MatrixNear(pelvis_m(camera(1280, 960, 1200)), same_m, 1e-6));
+  ExpectRefusal(kLift + " --exif", "man.png: found no focal length in its EXIF");
+  EXPECT_EQ(RunProgram(kLift + " --fov-deg 40 --focal-px 500").code, 2);
 }
 
 TEST(LiftProgram, RefusesBrokenTruthBeforeItWritesAnything) {
