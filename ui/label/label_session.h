@@ -50,6 +50,9 @@ class LabelSession {
   size_t frame_index() const { return frame_index_; }
   size_t person_index() const { return person_index_; }
   int landmark() const { return landmark_; }  // of the layout: the one that a click places
+  // How much is labelled: of the person at hand, and frames in which somebody placed labels.
+  size_t NumLabels() const;
+  size_t NumLabelledFrames() const;
   // The frame at hand, with what the mouse drags where it is now.
   FrameLabels Frame() const;
   // Null when the person has no label of it.

@@ -36,7 +36,22 @@ size_t PreviousVideo(const Labels& labels, size_t frame) {
   return first > 0 ? static_cast<size_t>(FramesOfVideo(labels, first - 1).first) : frame;
 }
 
+bool HasLabelsByHand(const FrameLabels& frame) {
+  return std::ranges::any_of(frame.people, [](const PersonLabels& person) {
+    return !person.landmarks.empty() && !person.is_propagated;
+  });
+}
+
 }  // namespace
+
+size_t LabelSession::NumLabels() const {
+  if (labels().frames.empty() || !HasPerson()) return 0;
+  return labels().frames[frame_index_].people[person_index_].landmarks.size();
+}
+
+size_t LabelSession::NumLabelledFrames() const {
+  return static_cast<size_t>(std::ranges::count_if(labels().frames, HasLabelsByHand));
+}
 
 size_t LabelSession::NextWhere(bool is_labelled, int step) const {
   const auto& frames = labels().frames;

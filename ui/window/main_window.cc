@@ -267,6 +267,7 @@ void MainWindow::TakeAnswers() {
 void MainWindow::Refresh() {
   ShowPicture();
   ShowJoints();
+  ShowProgress();
   ShowHints();
   setWindowTitle(QString::fromStdString(session_.Title()));
   status_->setText(QString::fromStdString(session_.Status()));

@@ -83,6 +83,7 @@ class MainWindow : public QMainWindow {
   void SayReading();
   QImage Ground() const;
   void ShowJoints();
+  void ShowProgress();
   void ShowHints();
   void AskHeight();
 
@@ -102,6 +103,7 @@ class MainWindow : public QMainWindow {
   MotionDock* motion_ = nullptr;
   Player* player_ = nullptr;
   std::vector<QDockWidget*> docks_;  // that may be hidden
+  QDockWidget *joints_dock_ = nullptr, *frames_dock_ = nullptr;
   QLabel* status_ = nullptr;
   QLabel* cursor_ = nullptr;
   std::optional<size_t> shown_frame_;

@@ -54,7 +54,7 @@ QVariant ResidualColor(std::optional<double> sigmas) {
 }  // namespace
 
 void MainWindow::AddJoints() {
-  auto* const dock = new QDockWidget(tr("Joints"), this);
+  auto* const dock = joints_dock_ = new QDockWidget(tr("Joints"), this);
   dock->setObjectName("joints_dock");
   joints_ = new QListWidget(dock);
   joints_->setObjectName("joints");
@@ -71,7 +71,8 @@ void MainWindow::AddJoints() {
 
 void MainWindow::AddFrames() {
   const bool has_keys = session_.HasKeyFrames();
-  auto* const dock = new QDockWidget(has_keys ? tr("Key frames") : tr("Pictures"), this);
+  auto* const dock = frames_dock_ =
+      new QDockWidget(has_keys ? tr("Key frames") : tr("Pictures"), this);
   dock->setObjectName("frames_dock");
   auto* const box = new QWidget(dock);
   auto* const column = new QVBoxLayout(box);
@@ -177,6 +178,19 @@ void MainWindow::ShowJoints() {
     item->setData(Qt::ForegroundRole, ResidualColor(session_.ResidualInSigmas(name)));
   }
   joints_->setCurrentRow(session_.landmark());
+}
+
+// How much of the work is done.
+void MainWindow::ShowProgress() {
+  const int num_joints = static_cast<int>(session_.layout().landmarks.size());
+  joints_dock_->setWindowTitle(tr("Joints: %1 of %2").arg(session_.NumLabels()).arg(num_joints));
+  const size_t num_frames = session_.labels().frames.size();
+  if (key_frames_ || num_frames < 2) return;
+  const size_t done = session_.NumLabelledFrames();
+  frames_dock_->setWindowTitle(tr("Pictures: %1 of %2 labelled by hand, %3 %")
+                                   .arg(done)
+                                   .arg(num_frames)
+                                   .arg(100 * done / num_frames));
 }
 
 void MainWindow::ShowHints() {

@@ -145,6 +145,16 @@ TEST_F(LabelSessionTest, KeysGoThroughPicturesAndCopyLabels) {
   EXPECT_EQ(session_->frame_index(), 0U);
 }
 
+TEST_F(LabelSessionTest, SaysHowMuchIsDone) {
+  EXPECT_EQ(session_->NumLabels() + session_->NumLabelledFrames(), 0U);
+  Click({10, 10});
+  Click({60, 10});
+  EXPECT_EQ(session_->NumLabels(), 2U);
+  session_->Do(Action::kNextFrame);
+  EXPECT_EQ(session_->NumLabels(), 0U);
+  EXPECT_EQ(session_->NumLabelledFrames(), 1U);
+}
+
 TEST_F(LabelSessionTest, WhatIsTakenBackIsSeen) {
   Click({10, 10});
   session_->Do(Action::kLastFrame);
