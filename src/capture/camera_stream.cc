@@ -64,18 +64,25 @@ CameraStream::CameraStream(const std::string& path, const CameraOptions& options
 CameraStream::~CameraStream() { Release(); }
 
 void CameraStream::Negotiate(const CameraMode& wanted) {
-  asked_ = ChooseMode(formats_, wanted);
-  if (asked_.fourcc == 0) asked_ = wanted;  // the driver does not list what it has, or not this
+  CameraMode nearest = ChooseMode(formats_, wanted);
+  if (nearest.fourcc == 0) nearest = wanted;  // the driver does not list what it has, or not this
+  asked_ = nearest;
+  if (!wanted.size_px.empty()) asked_.size_px = wanted.size_px;
   if (wanted.rate_hz > 0.0) asked_.rate_hz = wanted.rate_hz;
   v4l2_format format{};
   format.type = kCapture;
-  device_.Do("ask for its format", VIDIOC_G_FMT, &format);
-  if (asked_.fourcc != 0) {
+  if (const int error = device_.Try(VIDIOC_G_FMT, &format)) {
+    if (error != EINVAL) device_.Fail("ask for its format", error);
+    throw InputError(device_.path(),
+                     "has no format yet: start what writes into it, or name another camera; "
+                     "`poselift doctor` lists them");
+  }
+  if (nearest.fourcc != 0) {
     v4l2_format asked = format;
     asked.fmt.pix = {};
-    asked.fmt.pix.pixelformat = asked_.fourcc;
-    asked.fmt.pix.width = static_cast<uint32_t>(asked_.size_px.width);
-    asked.fmt.pix.height = static_cast<uint32_t>(asked_.size_px.height);
+    asked.fmt.pix.pixelformat = nearest.fourcc;
+    asked.fmt.pix.width = static_cast<uint32_t>(nearest.size_px.width);
+    asked.fmt.pix.height = static_cast<uint32_t>(nearest.size_px.height);
     asked.fmt.pix.field = V4L2_FIELD_ANY;
     const int error = device_.Try(VIDIOC_S_FMT, &asked);
     // Busy: whoever writes into the device has fixed its format.

@@ -50,12 +50,16 @@ std::string SetCommand(const SourceFacts& facts, const std::string& setting) {
 }
 
 void JudgeMode(const CameraFacts& camera, Findings* findings) {
-  if (camera.given.size_px != camera.asked.size_px || camera.given.fourcc != camera.asked.fourcc)
+  const bool is_other_size = camera.given.size_px != camera.asked.size_px;
+  if (is_other_size || camera.given.fourcc != camera.asked.fourcc)
     findings->push_back({Weight::kAdvice,
                          fmt::format("was asked for {} and gives {}", ModeText(camera.asked),
                                      ModeText(camera.given)),
-                         "a calibration holds for one size of the picture",
-                         "calibrate and track with the size that it gives"});
+                         is_other_size ? "a calibration holds for one size of the picture"
+                                       : "another format may be slower, or coarser",
+                         is_other_size ? "calibrate and track with the size that it gives"
+                                       : "ask for a format that it offers: `poselift doctor` "
+                                         "without a name lists them"});
   if (camera.given.rate_hz > 0.0 && camera.given.rate_hz < kRateSlack * camera.wanted.rate_hz)
     findings->push_back(
         {Weight::kAdvice,
@@ -203,6 +207,9 @@ Findings JudgeFormats(const std::vector<CameraFormat>& formats, const CameraMode
   Findings findings;
   const CameraMode best = ChooseMode(formats, wanted);
   if (best.fourcc == 0) {
+    CameraMode any = wanted;
+    any.fourcc = 0;
+    if (ChooseMode(formats, any).fourcc != 0) return findings;  // JudgeMode says what came instead
     findings.push_back({Weight::kProblem, "offers no format that is decoded here",
                         "no picture, no tags", "take a camera with " + DecodableFormats()});
     return findings;

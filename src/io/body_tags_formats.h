@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "src/body_tags.h"
+#include "src/io/body_tags_toml.h"
 
 namespace poselift {
 
 // What the readers of tags share.
 
 BodyTags ReadBodyTagsToml(const std::filesystem::path& path);
-BodyTags ReadBodyTagsRos(const std::filesystem::path& path);
+BodyTags ReadBodyTagsRos(const std::filesystem::path& path, TagPlaces places);
 
 // No code of any family is larger.
 inline constexpr int kLargestTagId = 65535;

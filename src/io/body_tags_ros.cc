@@ -22,7 +22,7 @@ constexpr double kUnitTolerance = 0.01;
 
 class Reader {
  public:
-  explicit Reader(std::string file) : file_(std::move(file)) {}
+  Reader(std::string file, TagPlaces places) : file_(std::move(file)), places_(places) {}
 
   BodyTags Read(const YAML::Node& root) {
     if (!root.IsMap() || !(root["standalone_tags"] || root["tag_bundles"]))
@@ -89,7 +89,9 @@ class Reader {
   // A tag alone says nothing of where on a bone it sits.
   void ReadStandalone(const YAML::Node& map) {
     BodyTag tag = IdAndSize(map);
-    tag.name = Value<std::string>(map, "name", "the name of a joint");
+    if (map["name"] || places_ == TagPlaces::kWanted)
+      tag.name = Value<std::string>(map, "name", "the name of a joint");
+    if (places_ == TagPlaces::kAny) return tags_.tags.push_back(std::move(tag));
     const char* const key = map["joint"] ? "joint" : "name";
     const auto place = Value<std::string>(map, key, "the name of a joint");
     const std::optional<int> joint = FindJoint(place);
@@ -107,6 +109,7 @@ class Reader {
   // A bundle of a bone's name has the bone's frame, one of a joint's name its origin there.
   void ReadBundle(const YAML::Node& bundle) {
     const auto name = Value<std::string>(bundle, "name", "the name of a bone or a joint");
+    if (places_ == TagPlaces::kAny) return ReadNames(bundle, name);
     const char* const key = bundle["bone"] ? "bone" : bundle["joint"] ? "joint" : "name";
     const auto place = Value<std::string>(bundle, key, "the name of a bone or a joint");
     const std::optional<std::string> bone = FindBodyBone(place);
@@ -129,6 +132,13 @@ class Reader {
     }
   }
 
+  void ReadNames(const YAML::Node& bundle, const std::string& name) {
+    for (const YAML::Node& entry : Items(bundle, "layout")) {
+      tags_.tags.push_back(IdAndSize(entry));
+      tags_.tags.back().name = name;
+    }
+  }
+
   Eigen::Isometry3d BundleFromTag(const YAML::Node& entry) const {
     const Eigen::Quaterniond turn(Number(entry, "qw", 1.0), Number(entry, "qx", 0.0),
                                   Number(entry, "qy", 0.0), Number(entry, "qz", 0.0));
@@ -143,14 +153,15 @@ class Reader {
   }
 
   std::string file_;
+  TagPlaces places_;
   BodyTags tags_;
 };
 
 }  // namespace
 
-BodyTags ReadBodyTagsRos(const std::filesystem::path& path) {
+BodyTags ReadBodyTagsRos(const std::filesystem::path& path, TagPlaces places) {
   try {
-    return Reader(path.string()).Read(YAML::Load(ReadTextFile(path)));
+    return Reader(path.string(), places).Read(YAML::Load(ReadTextFile(path)));
   } catch (const YAML::Exception& error) {
     throw InputError(path.string(), error.mark.line < 0 ? 1 : error.mark.line + 1,
                      fmt::format("{}, wanted YAML", error.msg));

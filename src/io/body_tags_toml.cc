@@ -322,10 +322,10 @@ BodyTags ReadBodyTagsToml(const std::filesystem::path& path) {
   return tags;
 }
 
-BodyTags ReadBodyTags(const std::filesystem::path& path) {
+BodyTags ReadBodyTags(const std::filesystem::path& path, TagPlaces places) {
   const std::string ending = path.extension().string();
   return EqualsIgnoringCase(ending, ".yaml") || EqualsIgnoringCase(ending, ".yml")
-             ? ReadBodyTagsRos(path)
+             ? ReadBodyTagsRos(path, places)
              : ReadBodyTagsToml(path);
 }
 

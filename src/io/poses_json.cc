@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "src/io/atomic_file.h"
 #include "src/io/json_text.h"
@@ -305,12 +306,14 @@ FramePoses ReadFrame(const JsonValue& json) {
 
 // The file is the head, frames with separators, the tail.
 constexpr std::string_view kTail = "]}\n";
+constexpr std::string_view kSource = " \"source\": \"";  // near the beginning
 
-std::string Head(const std::vector<PersonBones>& bodies) {
-  std::string text = fmt::format(
-      "{{\"format\": \"{}\", \"version\": 1, \"units\": \"m\", \"axes\": \"{}\",\n"
-      " \"joint_names\": [",
-      kFormat, kAxes);
+std::string Head(const std::vector<PersonBones>& bodies, std::string_view source = {}) {
+  std::string text =
+      fmt::format("{{\"format\": \"{}\", \"version\": 1, \"units\": \"m\", \"axes\": \"{}\",\n",
+                  kFormat, kAxes);
+  if (!source.empty()) text += fmt::format("{}{}\",\n", kSource, source);
+  text += " \"joint_names\": [";
   for (int j = 0; j < kNumJoints; ++j)
     text += fmt::format("{}\"{}\"", j > 0 ? ", " : "", Joints()[j].name);
   if (!bodies.empty()) AppendBodies(bodies, &text);
@@ -342,8 +345,8 @@ std::string PosesJson(const Poses& poses) {
 }
 
 GrowingPosesJson::GrowingPosesJson(const std::filesystem::path& path,
-                                   const std::vector<PersonBones>& bodies)
-    : file_(path, Head(bodies), kTail) {}
+                                   const std::vector<PersonBones>& bodies, std::string_view source)
+    : file_(path, Head(bodies, source), kTail) {}
 
 void GrowingPosesJson::Add(const FramePoses& frame) {
   std::string text;
@@ -354,6 +357,17 @@ void GrowingPosesJson::Add(const FramePoses& frame) {
 
 void WritePosesJson(const Poses& poses, const std::filesystem::path& path) {
   WriteFileAtomically(path, PosesJson(poses));
+}
+
+std::string SourceOfPosesJson(const std::filesystem::path& path) {
+  std::string head(512, '\0');
+  std::ifstream file(path);
+  file.read(head.data(), std::ssize(head));
+  head.resize(static_cast<size_t>(file.gcount()));
+  const size_t at = head.find(kSource);
+  if (at == std::string::npos) return "";
+  const size_t begin = at + kSource.size();
+  return head.substr(begin, head.find('"', begin) - begin);
 }
 
 Poses ReadPosesJson(const std::filesystem::path& path) {

@@ -27,8 +27,10 @@ std::string PosesJson(const Poses& poses);
 class GrowingPosesJson {
  public:
   // Throw InputError when the file cannot be written; it is then as before.
+  // source: what the frames come from, "camera"; not written when empty.
   explicit GrowingPosesJson(const std::filesystem::path& path,
-                            const std::vector<PersonBones>& bodies = {});
+                            const std::vector<PersonBones>& bodies = {},
+                            std::string_view source = {});
   void Add(const FramePoses& frame);
   void Close() { file_.Close(); }
 
@@ -41,6 +43,9 @@ class GrowingPosesJson {
 std::string FramePosesLine(const FramePoses& frame);
 // line: the number of the line in the file, for messages.
 FramePoses ReadFramePosesLine(std::string_view text, const std::string& file, int line);
+
+// The source that a GrowingPosesJson was given; empty where the file names none.
+std::string SourceOfPosesJson(const std::filesystem::path& path);
 
 // Reads it back: equal up to the rounding. Unknown keys are passed over.
 // Throws InputError: file:line: the JSON path, what was found, what was wanted.

@@ -161,14 +161,19 @@ TEST(TagsPrintTest, WrongUsesAreRefusedWithWhatIsWanted) {
     EXPECT_THAT(run.err, HasSubstr(why));
   };
   refused("--ids 3 --size-mm 300", "needs 381.0 x 396.0 mm, wanted at most 190.0 x 243.0 mm");
-  refused("--ids 3-1", "wanted ids as 0-11,20");
   refused("--ids 700", "wanted 0 to 586");
-  refused("--ids 1 --paper A9", "A4, Letter, A3");
-  refused("--ids 1 --family tag99h9", "tag36h11");
+  for (const auto& [wrong, wanted] : {std::pair{"--ids 3-1", "wanted ids as 0-11,20"},
+                                      {"--ids 1,0-2", "found 1 twice"},
+                                      {"--ids ''", "wanted ids as 0-11,20"},
+                                      {"--ids 1 --paper A9", "A4,Letter,A3"},
+                                      {"--ids 1 --family tag99h9", "tag36h11"}}) {
+    const auto run = RunProgram(std::string("tags print --out t.pdf ") + wrong);
+    EXPECT_EQ(run.code, 2) << wrong;
+    EXPECT_THAT(run.err, HasSubstr(wanted)) << wrong;
+  }
   refused("--tags none.toml", "none.toml");
   EXPECT_EQ(RunProgram("tags print --out t.pdf").code, 2);
   EXPECT_EQ(RunProgram("tags print --out t.pdf --set body --ids 3").code, 2);
-  refused("--ids 1,0-2", "found 1 twice");
   for (const char* const ignored : {"--set body --family tag25h9", "--set body --size-mm 40",
                                     "--ids 3 --rows 2", "--tags t.toml --spacing 0.2"}) {
     const auto run = RunProgram(std::string("tags print --out t.pdf ") + ignored);

@@ -239,6 +239,19 @@ TEST(BodyTagsTest, NamesOfRosAreFreeBesideAJointOrABone) {
   EXPECT_EQ(tags.Find(7)->on_bone->bone, "ltibia");
 }
 
+TEST(BodyTagsTest, WhoWantsNoPlacesTakesAnyNamesOfRos) {
+  const std::string path = WriteScratch(
+      "tags.yaml",
+      "standalone_tags:\n  [{id: 3, size: 0.07, name: table}, {id: 4, size: 0.08}]\n"
+      "tag_bundles: [{name: plate, layout: [{id: 7, size: 0.05, x: 0.1, y: 0, z: 0}]}]\n");
+  const BodyTags tags = ReadBodyTags(path, TagPlaces::kAny);
+  ASSERT_EQ(tags.tags.size(), 3U);
+  EXPECT_EQ(tags.Find(3)->name, "table");
+  EXPECT_EQ(tags.Find(4)->size_m, 0.08);
+  EXPECT_EQ(tags.Find(7)->name, "plate");
+  EXPECT_THROW(ReadBodyTags(path), InputError);
+}
+
 TEST(BodyTagsTest, BadFilesOfRosSayWhereAndWhatIsWanted) {
   const auto after = [](const std::string& old, const std::string& with) {
     return ErrorOf(Replaced(kYaml, old, with), "tags.yaml");

@@ -128,6 +128,12 @@ TEST_F(CameraStreamTest, KeepsWhatWasAskedAndWhatWasGiven) {
 }
 
 // Of a loopback device the writer fixes the format.
+TEST_F(CameraStreamTest, SaysTheSizeThatWasWantedWhereItIsNotOffered) {
+  const CameraStream stream(camera_.path, {.wanted = {kFourccYuyv, {1000, 700}, 10.0}}, &camera_);
+  EXPECT_EQ(stream.asked(), (CameraMode{kFourccYuyv, {1000, 700}, 10.0}));
+  EXPECT_EQ(stream.given(), (CameraMode{kFourccYuyv, {1280, 720}, 10.0}));
+}
+
 TEST_F(CameraStreamTest, TakesTheFormatThatAWriterHasFixed) {
   camera_.errors[VIDIOC_S_FMT] = EBUSY;
   CameraStream stream(camera_.path, {}, &camera_);
@@ -238,7 +244,8 @@ TEST_F(CameraStreamTest, SaysWhatToDo) {
 TEST_F(CameraStreamTest, SaysWhichCallFails) {
   for (const auto& [request, error, mention] :
        {std::tuple(VIDIOC_QUERYCAP, ENOTTY, "is no video device"),
-        {VIDIOC_G_FMT, EINVAL, "cannot ask for its format"},
+        {VIDIOC_G_FMT, EINVAL, "has no format yet"},
+        {VIDIOC_G_FMT, ENOMEM, "cannot ask for its format"},
         {VIDIOC_S_FMT, ENODEV, "is gone"},
         {VIDIOC_REQBUFS, EBUSY, "used by another program"},
         {VIDIOC_REQBUFS, ENOMEM, "cannot share memory"},

@@ -73,6 +73,8 @@ TEST(SourceFindings, TellThatYuyvCapsTheRate) {
   EXPECT_THAT(JudgeFormats(webcam.formats, {0, {640, 480}, 30.0}), IsEmpty());
   EXPECT_THAT(JudgeFormats({webcam.formats[0]}, {0, {1280, 720}, 30.0}), IsEmpty());
   ASSERT_EQ(JudgeFormats({webcam.formats[2]}, {0, {1280, 720}, 30.0}).size(), 1u);
+  // It has others than the one that is wanted: no problem of the camera.
+  EXPECT_THAT(JudgeFormats({webcam.formats[0]}, {kFourccNv12, {640, 480}, 30.0}), IsEmpty());
 }
 
 TEST(SourceFindings, TellWhatWasGivenForWhatWasAsked) {
@@ -80,6 +82,10 @@ TEST(SourceFindings, TellWhatWasGivenForWhatWasAsked) {
                 f->camera->given.size_px = {640, 480};
               }).what,
               HasSubstr("asked for 1280x720 MJPG 30 Hz and gives 640x480"));
+  const Finding other_format =
+      FindingOf([](SourceFacts* f) { f->camera->given.fourcc = kFourccYuyv; });
+  EXPECT_THAT(other_format.what, HasSubstr("gives 1280x720 YUYV"));
+  EXPECT_THAT(other_format.to_do, HasSubstr("a format that it offers"));
   EXPECT_THAT(FindingOf([](SourceFacts* f) {
                 f->camera->given.rate_hz = 15.0;
                 f->num_frames = 76;

@@ -139,8 +139,8 @@ int Calibrate(const Options& options) {
                                                    finder->board().name));
     }
   }
-  if (!options.json.empty()) WriteReportJson(report, flaw, options.json);
   PrintReport(report);
+  if (!options.json.empty()) WriteReportJson(report, flaw, options.json);
   if (!flaw.empty()) return Fail(flaw);
   return report.result.IsUsable() ? kDone : Fail(report.result.BriefReport());
 }

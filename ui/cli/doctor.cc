@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "calib/tag_check.h"
+#include "calib/tag_family.h"
 #include "src/capture/camera_list.h"
 #include "src/capture/fourcc.h"
 #include "src/capture/open_frame_source.h"
@@ -254,6 +255,7 @@ CLI::App* AddDoctor(CLI::App* app, Run* run) {
       ->check(IsNumber(0.1, 3600.0))
       ->capture_default_str();
   command->add_option("--tag-family", options->family, "Of the tags that may be in view")
+      ->check(CLI::IsMember(TagFamily::Names()))
       ->capture_default_str();
   AddCameraOptions(command, &options->camera);
   command->add_option("--json", options->json, "Write the same to this file");

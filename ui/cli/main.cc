@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "lift/quiet_solver.h"
 #include "src/input_error.h"
 #include "src/nearest_names.h"
 #include "ui/cli/command.h"
@@ -72,6 +73,7 @@ int RunGuarded(const Run& run) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  poselift::QuietSolver();
   CLI::App app{"poselift: from labelled pictures of a body to its 3D skeleton"};
   app.set_version_flag("--version", POSELIFT_VERSION);
   app.require_subcommand(1);

@@ -106,9 +106,10 @@ class TagFinder {
   TagFinder(const Options& options, cv::Size size_px)
       : options_(options),
         worn_(options.tags.empty() ? BodyTags{.family = options.family, .tags = {}}
-                                   : ReadBodyTags(options.tags)),
+                                   : ReadBodyTags(options.tags, TagPlaces::kAny)),
         family_(worn_.family),
-        search_(family_, Searching()) {
+        search_(family_, Searching()),
+        follows_(KindOfSource(options.inputs.input) != SourceKind::kFolder) {
     if (!options.inputs.camera.empty()) camera_ = CameraOf(options.inputs, size_px);
   }
 
@@ -122,12 +123,24 @@ class TagFinder {
                   std::fmax(edges_px[0], edges_px[1])};  // NaN is no width
       if (camera_) {
         TagPoses poses = FindTagPoses(*camera_, detection.corners_px, SizeOf_m(worn));
+        if (follows_) PutNearestFirst(detection.id, &poses);
         found.tag.poses = std::move(poses.poses);
         found.tag.is_ambiguous = poses.is_ambiguous;
       }
       all.push_back(std::move(found));
     }
     return all;
+  }
+
+  // Where the corners of a tag do not tell how it leans, its pose in the frame before does.
+  void PutNearestFirst(int id, TagPoses* found) {
+    if (found->poses.empty()) return;
+    const auto last = last_.find(id);
+    if (found->is_ambiguous && last != last_.end()) {
+      const TagPoseHints hints{.last = TagPoseHints::Pose{last->second}};
+      std::swap(found->poses.front(), found->poses[ChooseTagPose(*found, hints).index]);
+    }
+    last_.insert_or_assign(id, found->poses.front().cam_from_tag);
   }
 
   double SizeOf_m(const BodyTag* worn) const {
@@ -148,6 +161,8 @@ class TagFinder {
   TagFamily family_;
   TagSearch search_;
   std::optional<Camera> camera_;
+  bool follows_;                           // its frames follow each other
+  std::map<int, Eigen::Isometry3d> last_;  // of the frame before
 };
 
 void DrawFound(const std::vector<Found>& all, const TagFinder& finder, cv::Mat* picture) {

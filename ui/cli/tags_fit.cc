@@ -26,6 +26,7 @@
 #include "ui/cli/frame_rate.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/progress.h"
+#include "ui/cli/refuse_options.h"
 #include "ui/cli/tags.h"
 #include "ui/cli/tracking_options.h"
 #include "ui/live/tag_session.h"
@@ -113,7 +114,17 @@ void WriteJson(const TagFit& fit, const std::string& flaw, const Options& option
   WriteFileAtomically(options.json, json.dump(1) + "\n");
 }
 
+// What a person measured is no guess to be written over.
+void RefuseToReplaceInput(const Options& options) {
+  std::error_code ignored;
+  for (const std::string& input : {options.tags, options.inputs.camera})
+    for (const std::string& output : {options.out, options.camera_out})
+      if (!input.empty() && fs::equivalent(input, output, ignored))
+        throw InputError(output, "found that it is read here, wanted another name to write to");
+}
+
 int Fit(Options options) {
+  RefuseToReplaceInput(options);
   PrepareFolderOf(options.out);
   if (!options.camera_out.empty()) PrepareFolderOf(options.camera_out);
   options.fit.finds_lens = options.inputs.camera.empty();
@@ -178,6 +189,10 @@ CLI::App* AddTagsFit(CLI::App* tags, Run* run) {
       ->capture_default_str();
   command->add_flag("--force", options->is_forced, "Write a fit that no human can have, too");
   command->add_option("--json", options->json, "Write the report to this file");
+  command->callback([options, command] {
+    if (!options->inputs.camera.empty())
+      RefuseOptions(*command, {"--camera-out"}, "the camera of --camera is known");
+  });
   *run = [options] { return Fit(*options); };
   return command;
 }

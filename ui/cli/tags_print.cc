@@ -41,7 +41,7 @@ struct Options {
 // "0-11,20": whole numbers and ranges. At most as many as any family has.
 std::vector<int> ReadIds(const std::string& text) {
   const auto fail = [&] {
-    throw InputError("--ids", fmt::format("found {}, wanted ids as 0-11,20", Quoted(text)));
+    throw InputError(fmt::format("found {}, wanted ids as 0-11,20", Quoted(text)));
   };
   std::vector<int> ids;
   const char *at = text.data(), *end = text.data() + text.size();
@@ -54,7 +54,7 @@ std::vector<int> ReadIds(const std::string& text) {
     if (read.ec != std::errc() || last < first || last > 65535) fail();
     for (int id = first; id <= last; ++id) {
       if (std::find(ids.begin(), ids.end(), id) != ids.end())
-        throw InputError("--ids", fmt::format("found {} twice, wanted ids that differ", id));
+        throw InputError(fmt::format("found {} twice, wanted ids that differ", id));
       ids.push_back(id);
     }
     if (read.ptr < end && *read.ptr++ != ',') fail();
@@ -62,6 +62,14 @@ std::vector<int> ReadIds(const std::string& text) {
   }
   if (ids.empty()) fail();
   return ids;
+}
+
+// For CLI11: what is wrong with them, empty when nothing is.
+std::string IsIds(const std::string& text) try {
+  ReadIds(text);
+  return {};
+} catch (const InputError& error) {
+  return error.what();
 }
 
 fs::path Beside(const Options& options, const char* ending) {
@@ -132,7 +140,7 @@ int Print(const Options& options) {
   if (options.set == "body") return PrintBody(options);
   if (options.set == "board") return PrintBoard(options);
   if (!options.ids.empty()) return PrintIds(options);
-  const BodyTags tags = ReadBodyTags(options.tags);
+  const BodyTags tags = ReadBodyTags(options.tags, TagPlaces::kAny);
   return PrintTags(options, tags.family, SheetTagsOf(tags));
 }
 
@@ -152,12 +160,15 @@ CLI::App* AddTagsPrint(CLI::App* tags, Run* run) {
   what->add_option("--set", options->set,
                    "body: 16 tags for all segments; board: a grid to calibrate a camera with")
       ->check(CLI::IsMember({"body", "board"}));
-  what->add_option("--ids", options->ids, "Ids, as 0-11,20");
+  what->add_option("--ids", options->ids, "Ids, as 0-11,20")->check(IsIds);
   what->add_option("--tags", options->tags,
                    "The tags of a tags.toml, or tags.yaml of apriltag_ros");
   what->require_option(1);
-  command->add_option("--paper", options->paper, "A4, Letter or A3")->capture_default_str();
-  command->add_option("--family", options->family, "Of --ids and the board [tag36h11]");
+  command->add_option("--paper", options->paper, "A4, Letter or A3")
+      ->check(CLI::IsMember({"A4", "Letter", "A3"}, CLI::ignore_case))
+      ->capture_default_str();
+  command->add_option("--family", options->family, "Of --ids and the board [tag36h11]")
+      ->check(CLI::IsMember(TagFamily::Names()));
   CLI::Option* size =
       command->add_option("--size-mm", options->size_mm, "Of --ids [60] and the board [24]")
           ->check(CLI::Range(2.0, 10000.0));

@@ -74,6 +74,10 @@ struct Counts {
 };
 
 // Where frames of poses go as they come.
+bool IsCamera(const Options& options) {
+  return KindOfSource(options.inputs.input) == SourceKind::kCamera;
+}
+
 class Outputs {
  public:
   Outputs(const Options& options, const Skeleton& skeleton, double frame_time_s)
@@ -82,7 +86,9 @@ class Outputs {
       std::signal(SIGPIPE, SIG_IGN);
       ::fcntl(STDOUT_FILENO, F_SETPIPE_SZ, 1 << 20);  // fails where it is no pipe
     }
-    if (!options.out.empty()) recording_.emplace(options.out, skeleton, frame_time_s);
+    if (!options.out.empty())
+      recording_.emplace(options.out, skeleton, frame_time_s,
+                         IsCamera(options) ? TrackRecording::kCamera : TrackRecording::kFiles);
     if (options.udp_port > 0) udp_.emplace(options.udp_port);
   }
 
@@ -198,18 +204,20 @@ void Report(const Options& options, const Counts& counts, const Outputs& outputs
         options.tags);
   if (counts.frames > 0 && counts.ok == 0)
     fmt::print(stderr,
-               "poselift: found nobody: are these the tags of {} and of its family? `poselift "
-               "doctor` tells of the pictures\n",
-               options.tags);
+               "poselift: found nobody: are these the tags of {} and of its family? Whoever is "
+               "looked for shows {} of them at once. `poselift doctor` tells of the pictures\n",
+               options.tags, options.session.tracker.least_tags);
 }
 
 // What is only assumed.
 void TellAssumptions(const TrackingInputs& inputs) {
   if (inputs.camera.empty())
     fmt::print(stderr,
-               "camera: nobody calibrated it, so it is taken for one that sees {:g} degrees "
-               "(--fov-deg); `poselift calibrate` measures it, `tags fit` finds it roughly\n",
-               inputs.fov_deg);
+               "camera: nobody calibrated it, so it is taken for one {}; `poselift calibrate` "
+               "measures it, `tags fit` finds it roughly\n",
+               inputs.focal_px > 0.0
+                   ? fmt::format("of {:g} px (--focal-px)", inputs.focal_px)
+                   : fmt::format("that sees {:g} degrees (--fov-deg)", inputs.fov_deg));
   if (inputs.pitch_deg == 0.0 && inputs.roll_deg == 0.0)
     fmt::print(stderr, "camera: taken for level (--pitch-deg, --roll-deg)\n");
 }
@@ -228,17 +236,21 @@ std::optional<TrackVideo> StartVideo(const Options& options, const FrameSource& 
                                    options.before_s);
 }
 
-// What a camera gave cannot be had again; what files gave can, and is replaced as other commands
-// do.
+fs::path PosesPath(const Options& options) { return fs::path(options.out) / "poses.json"; }
+
+bool Replaces(const Options& options) {
+  return !options.out.empty() && fs::exists(PosesPath(options));
+}
+
+// What was tracked from files can be had again, and is replaced as other commands do; nothing else.
 void RefuseToReplace(const Options& options) {
-  const fs::path poses = fs::path(options.out) / "poses.json";
-  if (options.out.empty() || !fs::exists(poses)) return;
-  const bool is_camera = KindOfSource(options.inputs.input) == SourceKind::kCamera;
-  if ((is_camera || fs::exists(VideoPath(options))) && !options.may_overwrite)
+  if (!Replaces(options) || options.may_overwrite) return;
+  const bool is_of_files = SourceOfPosesJson(PosesPath(options)) == TrackRecording::kFiles &&
+                           !fs::exists(VideoPath(options));
+  if (IsCamera(options) || !is_of_files)
     throw InputError(
         options.out,
         "found a recording, wanted a folder without: name another, or say --overwrite");
-  fmt::print(stderr, "poselift: replaces the recording in {}\n", options.out);
 }
 
 int Track(Options options) {
@@ -256,6 +268,8 @@ int Track(Options options) {
   const std::string flaw = ImplausibleBody(models.dictionary.skeleton, session.skeleton());
   if (!flaw.empty()) fmt::print(stderr, "poselift: {}: {}\n", options.tags, flaw);
   std::optional<TrackVideo> video = StartVideo(options, *source);
+  if (Replaces(options))
+    fmt::print(stderr, "poselift: replaces the recording in {}\n", options.out);
   Outputs outputs(options, session.skeleton(), FrameTime_s(options.inputs, *source));
   const Interrupt interrupt;  // the recording is closed as it should be
 

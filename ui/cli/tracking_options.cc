@@ -24,6 +24,11 @@ void AddViewOptions(CLI::App* command, TrackingInputs* inputs) {
       ->check(IsNumber(1.0, 170.0))
       ->capture_default_str();
   command
+      ->add_option("--focal-px", inputs->focal_px,
+                   "Likewise, by its focal length in pixels of the picture")
+      ->check(IsNumber(1.0, 1e6))
+      ->excludes("--fov-deg");
+  command
       ->add_option("--pitch-deg", inputs->pitch_deg,
                    "How far the camera looks down, so that who stands is upright")
       ->check(IsNumber(-90.0, 90.0))
@@ -52,7 +57,8 @@ std::optional<SourceKind> RefuseViewOptions(const CLI::App& command, const Track
   if (kind != SourceKind::kFolder)
     RefuseOptions(command, {"--fps"}, "it is of a folder of pictures, which have no times");
   if (!inputs.camera.empty())
-    RefuseOptions(command, {"--fov-deg"}, "the file of --camera says how wide it sees");
+    RefuseOptions(command, {"--fov-deg", "--focal-px"},
+                  "the file of --camera says how wide it sees");
   return kind;
 }
 

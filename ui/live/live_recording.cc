@@ -23,7 +23,9 @@ LiveRecording::LiveRecording(const fs::path& dir, const TagSession* session, dou
       throw InputError(dir.string(), "found a recording, wanted a folder without: name another");
   fs::create_directories(dir, error);
   if (error) throw InputError(dir.string(), "cannot be made a folder: " + error.message());
-  if (session) poses_.emplace(dir, session->skeleton(), frame_time_s);
+  if (session)
+    poses_.emplace(dir, session->skeleton(), frame_time_s,
+                   camera ? TrackRecording::kCamera : TrackRecording::kFiles);
   if (camera) video_.emplace(dir / "video.mkv", camera->camera().format(), std::nullopt);
 }
 

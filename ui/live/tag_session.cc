@@ -26,6 +26,7 @@ TagSession::TagSession(const BodyTags& tags, const Camera& camera, const PhotoLi
     : tags_(tags),
       camera_(camera),
       skeleton_(PersonSkeleton(lifter.dictionary().skeleton, tags)),
+      upright_(OnBones(tags, skeleton_), skeleton_, options.cam_from_world),
       search_(TagFamily(tags.family), ForPerson(options.search, tags)),
       tracker_(skeleton_, tags, camera, options.cam_from_world, lifter, std::move(codebook),
                options.tracker),
@@ -35,8 +36,9 @@ void TagSession::Add(const VideoFrame& frame) {
   std::map<int, TagSearch::Corners> predicted_px;
   for (const TagDetection& tag : tracker_.Expected(frame.time_s))
     predicted_px.emplace(tag.id, tag.corners_px);
-  const std::vector<TagSighting> seen =
+  std::vector<TagSighting> seen =
       SightTags(search_.Detect(frame.grey, predicted_px), tags_, camera_);
+  upright_.PutFirst(&seen);
   tracker_.Add(frame.time_s, seen);
   Waiting& waiting = waiting_.emplace_back(Waiting{frame.time_s, frame.monotonic_s, {}});
   for (const TagSighting& tag : seen) waiting.tags.push_back(tag.detection);

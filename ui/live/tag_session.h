@@ -14,6 +14,7 @@
 #include "src/io/frame_source.h"
 #include "src/level_camera.h"
 #include "src/poses.h"
+#include "ui/live/upright_tags.h"
 
 namespace poselift {
 
@@ -57,6 +58,7 @@ class TagSession {
   BodyTags tags_;
   Camera camera_;
   Skeleton skeleton_;
+  UprightTags upright_;
   TagSearch search_;
   TagTracker tracker_;
   TrackedPerson person_;

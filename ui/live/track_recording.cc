@@ -45,9 +45,10 @@ double LowestJoint_m(const Skeleton& skeleton, const SkeletonPose& pose) {
 
 }  // namespace
 
-TrackRecording::TrackRecording(const fs::path& dir, const Skeleton& skeleton, double frame_time_s)
+TrackRecording::TrackRecording(const fs::path& dir, const Skeleton& skeleton, double frame_time_s,
+                               std::string_view source)
     : skeleton_(skeleton),
-      poses_(Made(dir) / "poses.json", BodyOf(skeleton)),
+      poses_(Made(dir) / "poses.json", BodyOf(skeleton), source),
       angles_(dir / "angles.csv", &PersonPose::angles_deg, AngleNames()),
       sigmas_(dir / "angles_sigma.csv", &PersonPose::angles_sigma_deg, AngleNames()),
       bvh_(dir / "poses.bvh", skeleton, frame_time_s),

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 #include "lift/temporal/pose_grid.h"
 #include "src/io/angles_csv.h"
@@ -23,8 +24,12 @@ namespace poselift {
 // the lowest joint of that pose on the floor and its pelvis above the origin.
 class TrackRecording {
  public:
+  // What it was made from, in poses.json: what a camera gave cannot be had again.
+  static constexpr std::string_view kCamera = "camera", kFiles = "files";
+
   // Makes the folder. Throws InputError when a file cannot be written.
-  TrackRecording(const std::filesystem::path& dir, const Skeleton& skeleton, double frame_time_s);
+  TrackRecording(const std::filesystem::path& dir, const Skeleton& skeleton, double frame_time_s,
+                 std::string_view source = kCamera);
 
   // pose_in_world: of the skeleton, y up; nothing when it is not known.
   // Waits for the disk when the disk is busy: not for the thread that empties the camera's buffers.

@@ -72,15 +72,17 @@ int64_t NumFrames(const TrackingInputs& inputs) {
 
 Camera CameraOf(const TrackingInputs& inputs, cv::Size size_px) {
   if (inputs.camera.empty())
-    return UncalibratedCamera(size_px.width, size_px.height,
-                              FocalLength_px(inputs.fov_deg, size_px.width));
+    return UncalibratedCamera(
+        size_px.width, size_px.height,
+        inputs.focal_px > 0.0 ? inputs.focal_px : FocalLength_px(inputs.fov_deg, size_px.width));
   return AtSize(ReadCamera(inputs.camera), size_px.width, size_px.height, inputs.camera);
 }
 
 double DepthSigma(const TrackingInputs& inputs) {
   constexpr double kWeak_deg = 2.0;
   if (!inputs.camera.empty()) return 0.0;
-  return inputs.fov_deg < kWeak_deg ? kWeakDepthSigma : kGuessedDepthSigma;
+  return inputs.focal_px <= 0.0 && inputs.fov_deg < kWeak_deg ? kWeakDepthSigma
+                                                              : kGuessedDepthSigma;
 }
 
 Eigen::Quaterniond CamFromWorld(const TrackingInputs& inputs) {

@@ -22,6 +22,7 @@ struct TrackingInputs {
   std::string input;
   std::string camera;
   double fov_deg = 60.0;                   // horizontal, of a camera that nobody calibrated
+  double focal_px = 0.0;                   // or, where it is said, this
   double pitch_deg = 0.0, roll_deg = 0.0;  // how the camera leans: down, and clockwise
   CameraChoice device;
   double folder_rate_hz = 30.0;

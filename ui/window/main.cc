@@ -17,6 +17,7 @@
 #include "lift/default_dictionary.h"
 #include "lift/dictionary_file.h"
 #include "lift/lift_photo.h"
+#include "lift/quiet_solver.h"
 #include "src/capture/open_frame_source.h"
 #include "src/input_error.h"
 #include "ui/cli/refuse_options.h"
@@ -54,10 +55,11 @@ bool IsCamera(const std::string& input) {
 void CheckLive(const CLI::App& app, Options* options) {
   options->is_live |= options->inputs.size() == 1 && IsCamera(options->inputs[0]);
   if (!options->is_live)
-    return cli::RefuseOptions(app,
-                              {"--tags", "--camera", "--fov-deg", "--pitch-deg", "--roll-deg",
-                               "--size", "--rate", "--format", "--set", "--fps", "--out"},
-                              "it is of a camera, or of a video that is watched: --live");
+    return cli::RefuseOptions(
+        app,
+        {"--tags", "--camera", "--fov-deg", "--focal-px", "--pitch-deg", "--roll-deg", "--size",
+         "--rate", "--format", "--set", "--fps", "--out"},
+        "it is of a camera, or of a video that is watched: --live");
   if (options->inputs.size() != 1)
     throw CLI::ValidationError("--live", "wanted one camera, video or folder to watch");
   options->live.view.input = options->inputs[0];
@@ -135,6 +137,7 @@ int Label(const Options& options, const PhotoLifter& lifter, const KeyMap& keys)
 }  // namespace poselift
 
 int main(int argc, char** argv) {
+  poselift::QuietSolver();
   CLI::App app{"poselift-label: label joints in pictures and see the 3D pose answer"};
   poselift::Options options;
   poselift::AddOptions(&app, &options);

@@ -21,6 +21,7 @@
 #include "src/io/poses_json.h"
 #include "src/level_camera.h"
 #include "src/testing/body_renderer.h"
+#include "tests/support/broken_input.h"
 #include "tests/support/mutation.h"
 #include "tests/support/run_program.h"
 #include "tests/support/support.h"
@@ -33,6 +34,7 @@ namespace fs = std::filesystem;
 using testing::FileText;
 using ::testing::HasSubstr;
 using testing::ProgramRun;
+using testing::Replaced;
 using testing::RunProgram;
 using testing::ScratchDir;
 using testing::WriteScratch;
@@ -190,10 +192,19 @@ TEST_F(TrackProgram, ACamerasRecordingIsNotReplacedUnasked) {
   const ProgramRun again = RunProgram(command);
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_THAT(again.err, HasSubstr("replaces the recording in run"));
+  const auto is_refused = [&] {
+    const ProgramRun refused = RunProgram(command);
+    EXPECT_THAT(refused.err, HasSubstr("--overwrite"));
+    return refused.code == 3;
+  };
   WriteScratch("run/video.mkv", "a camera's");
-  const ProgramRun refused = RunProgram(command);
-  EXPECT_EQ(refused.code, 3);
-  EXPECT_THAT(refused.err, HasSubstr("--overwrite"));
+  EXPECT_TRUE(is_refused());
+  fs::remove(ScratchDir() / "run" / "video.mkv");
+  const std::string poses = FileText(ScratchDir() / "run" / "poses.json");
+  WriteScratch("run/poses.json", Replaced(poses, "\"files\"", "\"camera\""));
+  EXPECT_TRUE(is_refused());
+  WriteScratch("run/poses.json", Replaced(poses, " \"source\": \"files\",\n", ""));  // of lift
+  EXPECT_TRUE(is_refused());
   EXPECT_EQ(RunProgram(command + " --overwrite").code, 0);
 }
 
