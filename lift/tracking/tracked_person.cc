@@ -39,6 +39,21 @@ Eigen::VectorXd Variances(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd
   return (jacobian * covariance).cwiseProduct(jacobian).rowwise().sum().cwiseMax(0.0);
 }
 
+// Covariances are linear in the angles and know no circle: of an angle that is not known at all the
+// deviation is that of a uniform one.
+const double kUnknownAngle_deg = 180.0 / std::sqrt(3.0);
+
+// Nor do they know how far a joint reaches: where a bone's direction is not known, its end is off
+// by what its start is and by a uniform direction, whose expected square is twice the length's.
+Eigen::VectorXd WithinReach(const Pose3& joints_m, Eigen::VectorXd sigma_m) {
+  for (int j = 1; j < kNumJoints; ++j) {
+    const int parent = Joints()[static_cast<size_t>(j)].parent;
+    const double length_m = (joints_m.col(j) - joints_m.col(parent)).norm();
+    sigma_m[j] = std::min(sigma_m[j], std::hypot(sigma_m[parent], std::sqrt(2.0) * length_m));
+  }
+  return sigma_m;
+}
+
 }  // namespace
 
 TrackedPerson::TrackedPerson(const Skeleton& skeleton, const Camera& camera,
@@ -67,9 +82,10 @@ PersonPose TrackedPerson::Convert(const TrackedFrame& frame) {
       last_deg_.size() == 0 ? reader_.ReadDeg(body.pose) : reader_.ReadDeg(body.pose, last_deg_);
   person.angles_deg = Named(last_deg_);
   const Eigen::MatrixXd covariance = CovarianceOf(frame);
-  person.angles_sigma_deg =
-      Named(Variances(reader_.DerivativeDeg(body.pose), covariance).cwiseSqrt());
-  person.joints_sigma_m = JointsSigma_m(body.pose, covariance);
+  person.angles_sigma_deg = Named(Variances(reader_.DerivativeDeg(body.pose), covariance)
+                                      .cwiseSqrt()
+                                      .cwiseMin(kUnknownAngle_deg));
+  person.joints_sigma_m = WithinReach(joints_m, JointsSigma_m(body.pose, covariance));
   return person;
 }
 

@@ -182,13 +182,16 @@ CalibrationCoverage CoverageSoFar(const ViewChooser& chooser, const BoardFinder&
   return CoverageOf(finder.board(), views, size_px.width, size_px.height);
 }
 
-void TellCoverage(const CalibrationCoverage& coverage, double time_s) {
-  const nlohmann::ordered_json line = {
-      {"time_s", std::round(100.0 * time_s) / 100.0},
-      {"views", coverage.num_views},
-      {"share", std::round(100.0 * coverage.share) / 100.0},
-      {"hint", coverage.hints.empty() ? "enough" : coverage.hints.front()}};
+void TellCoverage(const CalibrationCoverage& coverage, const std::string& hint, double time_s) {
+  const nlohmann::ordered_json line = {{"time_s", std::round(100.0 * time_s) / 100.0},
+                                       {"views", coverage.num_views},
+                                       {"share", std::round(100.0 * coverage.share) / 100.0},
+                                       {"hint", hint}};
   fmt::print(stderr, "{}\n", line.dump());
+}
+
+void TellCoverage(const CalibrationCoverage& coverage, double time_s) {
+  TellCoverage(coverage, coverage.hints.empty() ? "enough" : coverage.hints.front(), time_s);
 }
 
 SurveyedViews SurveyCamera(const std::string& name, const ViewsOptions& options,
@@ -202,11 +205,18 @@ SurveyedViews SurveyCamera(const std::string& name, const ViewsOptions& options,
   Absences absences;
   CalibrationCoverage coverage = CoverageSoFar(chooser, *finder, camera->size_px());
   TellCoverage(coverage, 0.0);
+  constexpr double kPatience_s = 2.0;  // of who moves the board and looks
+  double seen_s = 0.0;                 // the board, or told that it is not
   while (!interrupt.asked() && !coverage.hints.empty()) {
     const auto frame = camera->Next();
     if (!frame || frame->time_s > options.seconds) break;
     const BoardView view = finder->Find(frame->grey);
     if (view.empty()) absences.Add(frame->grey);
+    if (!view.empty()) seen_s = frame->time_s;
+    if (frame->time_s > seen_s + kPatience_s) {
+      TellCoverage(coverage, Describe(*finder, finder->Explain(frame->grey)), frame->time_s);
+      seen_s = frame->time_s;
+    }
     if (!chooser.Offer(frame->grey, view, frame->index, frame->time_s)) continue;
     coverage = CoverageSoFar(chooser, *finder, camera->size_px());
     TellCoverage(coverage, frame->time_s);

@@ -73,11 +73,11 @@ struct Counts {
   double seconds = 0.0;  // of the clock
 };
 
-// Where frames of poses go as they come.
 bool IsCamera(const Options& options) {
   return KindOfSource(options.inputs.input) == SourceKind::kCamera;
 }
 
+// Where frames of poses go as they come.
 class Outputs {
  public:
   Outputs(const Options& options, const Skeleton& skeleton, double frame_time_s)
@@ -198,7 +198,8 @@ void Report(const Options& options, const Counts& counts, const Outputs& outputs
     fmt::print(
         stderr,
         "poselift: {:.0f} % of the tags do not fit the poses: are left and right swapped in "
-        "{}, or a tag on another bone, or their size wrong? `poselift tags fit` finds where "
+        "{}, a tag on another bone, their size wrong, or a second print of one in view? `poselift "
+        "tags fit` finds where "
         "they sit\n",
         100.0 * static_cast<double>(counts.tags_doubted) / static_cast<double>(counts.tags_judged),
         options.tags);
@@ -307,6 +308,11 @@ int Track(Options options) {
   if (video) video->Close();
   progress.reset();
   Report(options, counts, outputs);
+  // A tenth: containers state lengths, not frames, and round.
+  if (!interrupt.asked() && !broken && options.seconds <= 0.0 &&
+      10 * counts.frames < 9 * num_frames)
+    fmt::print(stderr, "poselift: {}: found {} frames where {} are stated: it is damaged, or cut\n",
+               options.inputs.input, counts.frames + counts.lost, num_frames);
   if (broken) std::rethrow_exception(broken);
   return counts.ok > 0 ? kDone : kFailed;
 }

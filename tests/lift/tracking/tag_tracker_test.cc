@@ -229,6 +229,25 @@ TEST_F(TagTrackerTest, PosesAreBeforeTheCameraAsPosesJsonHasThem) {
   }
 }
 
+// However unsure the angles are: no circle is wider, no arm longer.
+TEST_F(TagTrackerTest, NoJointIsUnsureBeyondItsReach) {
+  TagTracker tracker = Tracker();
+  TrackedPerson converter(person_.skeleton, person_.camera, kLevelFromCam);
+  tracker.Add(0.0, Seen(0));
+  TrackedFrame frame = *tracker.Take();
+  frame.covariance *= 1e6;
+  const PersonPose person = converter.Convert(frame);
+  for (const auto& [name, sigma_deg] : person.angles_sigma_deg)
+    EXPECT_LE(sigma_deg, 180.0 / std::sqrt(3.0) + 1e-9) << name;
+  double reach_m2 = 0.0;
+  for (int j = joint::kLeftHand; j != joint::kPelvis; j = Joints()[static_cast<size_t>(j)].parent)
+    reach_m2 += 2.0 * (person.joints_in_cam_m.col(j) -
+                       person.joints_in_cam_m.col(Joints()[static_cast<size_t>(j)].parent))
+                          .squaredNorm();
+  EXPECT_LE(person.joints_sigma_m[joint::kLeftHand], std::sqrt(reach_m2) + 1e-9);
+  EXPECT_GT(person.joints_sigma_m[joint::kLeftHand], 0.5);
+}
+
 TEST_F(TagTrackerTest, AJointThatNoTagShowsIsUnsure) {
   TagTracker tracker = Tracker();
   TrackedPerson converter(person_.skeleton, person_.camera, kLevelFromCam);
