@@ -33,6 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::FileText;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::ProgramRun;
 using testing::Replaced;
 using testing::RunProgram;
@@ -206,6 +207,21 @@ TEST_F(TrackProgram, ACamerasRecordingIsNotReplacedUnasked) {
   WriteScratch("run/poses.json", Replaced(poses, " \"source\": \"files\",\n", ""));  // of lift
   EXPECT_TRUE(is_refused());
   EXPECT_EQ(RunProgram(command + " --overwrite").code, 0);
+}
+
+// Real: the sample clip, whose last two fifths are zeros here.
+TEST_F(TrackProgram, AVideoThatLacksFramesIsSaidToBeDamaged) {
+  const std::string samples = testing::SourcePath("samples/tags/").string();
+  std::string clip = FileText(samples + "clip.mp4");
+  std::fill(clip.begin() + std::ssize(clip) * 3 / 5, clip.end(), '\0');
+  WriteScratch("damaged.mp4", clip);
+  const std::string rest =
+      " --camera " + samples + "camera.yaml --tags " + samples + "tags.toml --out run" + kModels;
+  const ProgramRun run = RunProgram("track damaged.mp4" + rest);
+  EXPECT_EQ(run.code, 0);
+  EXPECT_THAT(run.err, HasSubstr("frames where 90 are stated: it is damaged"));
+  EXPECT_THAT(RunProgram("track " + samples + "clip.mp4 --seconds 1 --overwrite" + rest).err,
+              Not(HasSubstr("stated")));
 }
 
 TEST_F(TrackProgram, FitsTheCameraToo) {
